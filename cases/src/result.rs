@@ -1,0 +1,337 @@
+//! What a case hands to the reports: measured values, curves, family members, pictures.
+//!
+//! A [`CaseResult`] holds what was *measured* and what it is to be compared *with*; it holds no
+//! judgement. `result.json` in the folder of a case is this type.
+
+use schemars::JsonSchema;
+use seam_solver::work::Work;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+/// Name and version of the format.
+pub const SCHEMA: &str = "seam.case/1";
+
+/// Result of one case.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct CaseResult {
+    /// [`SCHEMA`].
+    pub schema: String,
+    /// Id of the case, also the name of its folder.
+    pub id: String,
+    /// One line.
+    pub title: String,
+    /// What is shown, for whom, in a few sentences (Markdown).
+    pub purpose: String,
+    /// Author, year, title, figure or equation.
+    pub citation: String,
+    /// Words to filter by.
+    pub tags: Vec<String>,
+    /// `quick` or `full`.
+    pub tier: String,
+    /// Blake3 of the scene as it was run, overrides included.
+    pub scene_hash: String,
+    /// The command that runs just this case again.
+    pub command: String,
+    /// Effects that were on or off, and why.
+    pub effects: Vec<EffectUse>,
+    /// Parameters with their units.
+    pub parameters: Vec<Parameter>,
+    /// Numbers to be judged.
+    pub quantities: Vec<Observation>,
+    /// Refinement studies.
+    pub convergence: Vec<Convergence>,
+    /// Curves to be drawn.
+    pub curves: Vec<Plot>,
+    /// Families that answer claims.
+    pub families: Vec<Family>,
+    /// Signed parts of the total error.
+    pub budgets: Vec<Budget>,
+    /// Error against cost.
+    pub costs: Vec<CostDiagram>,
+    /// Bodies drawn from the model.
+    pub pictures: Vec<Picture>,
+    /// Counted work of all runs of the case.
+    pub work: Work,
+    /// Wall time of the case, in seconds. Not deterministic.
+    pub seconds: f64,
+    /// Things a reader must know (dropped constraint rows …).
+    pub notes: Vec<String>,
+}
+
+/// One effect of a scene.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct EffectUse {
+    /// Name as in the scene file, e.g. `rotation-coupling`.
+    pub name: String,
+    /// Whether it was simulated.
+    pub on: bool,
+    /// Why it was switched on or left out.
+    pub why: String,
+    /// Work done for it alone; exactly zero when off.
+    pub counter: u64,
+}
+
+/// One parameter of a scene.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct Parameter {
+    /// Name as in the scene file.
+    pub name: String,
+    /// Value.
+    pub value: f64,
+    /// SI unit, `1` for a pure number.
+    pub unit: String,
+    /// What it is, and where it comes from.
+    pub about: String,
+}
+
+/// Where a reference value comes from.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum ReferenceKind {
+    /// A closed form or an exactly known number.
+    #[default]
+    Exact,
+    /// Our own converged finite elements.
+    OwnFem,
+    /// CalculiX.
+    Calculix,
+    /// YADE.
+    Yade,
+    /// LAMMPS.
+    Lammps,
+    /// A measurement.
+    Experiment,
+    /// Our own last accepted value.
+    Regression,
+}
+
+/// A measured number and what it is compared with.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct Observation {
+    /// Unique within the case, e.g. `tip-deflection`.
+    pub id: String,
+    /// What it is, in words.
+    pub label: String,
+    /// SI unit, `1` for a pure number.
+    pub unit: String,
+    /// The measured value.
+    pub value: f64,
+    /// Reference value, if there is one.
+    pub reference: Option<f64>,
+    /// Kind of the reference.
+    pub kind: ReferenceKind,
+    /// Author, year, equation, or how the reference was computed.
+    pub source: String,
+    /// Standard numerical uncertainty of the value, in its unit.
+    pub u_num: f64,
+    /// Standard uncertainty of the reference, in its unit.
+    pub u_ref: f64,
+    /// Interval the value must lie in; `None` shows the number without judging it.
+    pub accepted: Option<[f64; 2]>,
+    /// Why the interval is as wide as it is.
+    pub why: String,
+}
+
+/// A refinement study of one quantity.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct Convergence {
+    /// Id of the quantity that is refined.
+    pub id: String,
+    /// What it is, in words.
+    pub label: String,
+    /// Size of a cell at each level, in metres, coarse to fine.
+    pub h: Vec<f64>,
+    /// Error norm at each level, where the exact answer is known.
+    pub error: Vec<f64>,
+    /// Order that theory gives.
+    pub formal_order: f64,
+    /// Half width of the accepted interval around the formal order; `None` shows the order only.
+    pub tolerance: Option<f64>,
+}
+
+/// Role of a series in a plot: model solid, reference dashed, data as dots.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Role {
+    /// What Seam computed.
+    #[default]
+    Model,
+    /// What it is compared with.
+    Reference,
+    /// Single points.
+    Data,
+}
+
+/// One line or cloud of dots.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct Series {
+    /// Legend.
+    pub name: String,
+    /// How it is drawn.
+    pub role: Role,
+    /// Abscissa.
+    pub x: Vec<f64>,
+    /// Ordinate.
+    pub y: Vec<f64>,
+}
+
+/// A plot of one or more series.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct Plot {
+    /// Unique within the case; also the name of its CSV file.
+    pub id: String,
+    /// Caption.
+    pub title: String,
+    /// Abscissa with unit, e.g. `x / L (1)`.
+    pub x_label: String,
+    /// Ordinate with unit.
+    pub y_label: String,
+    /// Logarithmic axes (x, y).
+    pub log: [bool; 2],
+    /// Relative half width of the tolerance band around the first reference series.
+    pub band: Option<f64>,
+    /// Intervals of x to shade, e.g. the DE part.
+    pub shaded: Vec<[f64; 2]>,
+    /// The series.
+    pub series: Vec<Series>,
+}
+
+/// A claim checked over a family of settings.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct Family {
+    /// Id of the claim, e.g. `rotation-7-percent`.
+    pub claim: String,
+    /// The claim in words.
+    pub statement: String,
+    /// Paper, figure, sentence.
+    pub source: String,
+    /// Whether it is Seam's own claim, which must be supported.
+    pub own: bool,
+    /// Largest allowed error, as a fraction (0.07).
+    pub bound: f64,
+    /// Readings of the metric: id and meaning. The first is the one the claim most likely meant.
+    pub readings: BTreeMap<String, String>,
+    /// Id of the reading that the claim most likely meant.
+    pub main_reading: String,
+    /// Axes of the family: name and the values it takes, as text.
+    pub axes: BTreeMap<String, Vec<String>>,
+    /// Settings of the paper-like member.
+    pub paper_like: BTreeMap<String, String>,
+    /// The members that were run.
+    pub members: Vec<Member>,
+    /// Whether these are all members of the family, or the quick subset.
+    pub complete: bool,
+}
+
+/// One member of a family.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct Member {
+    /// Value of each axis, as text. Seeds are not an axis.
+    pub settings: BTreeMap<String, String>,
+    /// Seed of a random packing.
+    pub seed: Option<u64>,
+    /// Error (fraction) under each reading.
+    pub errors: BTreeMap<String, f64>,
+    /// Standard uncertainty of the errors from discretisation and reference, as a fraction.
+    pub u: f64,
+    /// Number of particles.
+    pub particles: usize,
+    /// Counted work.
+    pub work: Work,
+    /// Wall seconds. Not deterministic.
+    pub seconds: f64,
+    /// Why it could not be run; then `errors` is empty.
+    pub failed: Option<String>,
+}
+
+/// A total error and its signed parts.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct Budget {
+    /// Unique within the case.
+    pub id: String,
+    /// Caption.
+    pub title: String,
+    /// What is split, e.g. `relative error of the tip deflection`.
+    pub quantity: String,
+    /// Signed total, as a fraction.
+    pub total: f64,
+    /// Signed parts in order; they add up to the total (the last one is what stays unexplained).
+    pub parts: Vec<BudgetPart>,
+}
+
+/// One rung of the ladder.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct BudgetPart {
+    /// Short name.
+    pub name: String,
+    /// Signed share, as a fraction of the reference.
+    pub value: f64,
+    /// Which two runs it is the difference of.
+    pub how: String,
+    /// Standard deviation over seeds, where there are seeds.
+    pub scatter: Option<f64>,
+}
+
+/// Error against cost for several settings.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct CostDiagram {
+    /// Unique within the case.
+    pub id: String,
+    /// Caption.
+    pub title: String,
+    /// What the error is of.
+    pub error_label: String,
+    /// One entry per setting.
+    pub settings: Vec<CostSetting>,
+}
+
+/// One setting at several resolutions.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct CostSetting {
+    /// Legend.
+    pub name: String,
+    /// Points, coarse to fine.
+    pub points: Vec<CostPoint>,
+}
+
+/// One run of a cost diagram.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct CostPoint {
+    /// Resolution, in words, e.g. `8 rows`.
+    pub level: String,
+    /// Error as a fraction; `None` if the run failed.
+    pub error: Option<f64>,
+    /// Number of particles.
+    pub particles: usize,
+    /// Counted work.
+    pub work: Work,
+    /// Median wall seconds. Not deterministic.
+    pub seconds: f64,
+}
+
+/// A drawing of the bodies, undeformed and deformed, in the x–y plane.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct Picture {
+    /// Unique within the case.
+    pub id: String,
+    /// Caption.
+    pub title: String,
+    /// Factor the displacements are enlarged by.
+    pub scale: f64,
+    /// Elements as polygons: undeformed corner positions.
+    pub elements: Vec<Vec<[f64; 2]>>,
+    /// The same polygons, displaced by `scale` times the displacement.
+    pub deformed_elements: Vec<Vec<[f64; 2]>>,
+    /// Particle centres, undeformed.
+    pub particles: Vec<[f64; 2]>,
+    /// Particle centres, displaced.
+    pub deformed_particles: Vec<[f64; 2]>,
+    /// Particle radii.
+    pub radii: Vec<f64>,
+    /// Bonds as pairs of particle indices.
+    pub bonds: Vec<[usize; 2]>,
+    /// Points that are held.
+    pub supports: Vec<[f64; 2]>,
+    /// Loads as start point and direction (unit vector).
+    pub loads: Vec<[[f64; 2]; 2]>,
+}

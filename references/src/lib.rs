@@ -1,0 +1,1 @@
+//! Outputs of independent codes, with their provenance.

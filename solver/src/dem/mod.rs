@@ -1,0 +1,4 @@
+//! Discrete elements: particles joined by cylindrical Euler–Bernoulli beams.
+
+pub mod bond;
+pub mod network;

@@ -1,0 +1,3 @@
+//! Finite elements: meshes, elements, elasticity, assembly.
+
+pub mod mesh;

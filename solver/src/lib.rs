@@ -1,0 +1,11 @@
+//! A compact coupled solver: finite elements, bonded discrete elements, and Lagrange
+//! multipliers that tie them without overlap.
+//!
+//! It knows no scene file, no reference and no report: a [`model::Model`] goes in, a
+//! solution with its residual and its [`work::Work`] comes out.
+
+pub mod dem;
+pub mod error;
+pub mod fem;
+pub mod space;
+pub mod work;
