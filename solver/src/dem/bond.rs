@@ -118,7 +118,7 @@ fn check_bond(network: &Network, body: &str, bond: usize) -> Result<()> {
     if i >= count || j >= count {
         return fail("no such particle; check the ids of the bond");
     }
-    if i == j || !(network.bond_length(bond) > 0.0) {
+    if i == j || network.bond_length(bond) == 0.0 {
         return fail("its ends coincide; remove the bond or one of the particles");
     }
     let BondStiffness { kn, ks, kb, kt } = network.bonds.stiffness[bond];
