@@ -226,8 +226,7 @@ fn recovered_strain_stores_the_energy_of_the_stiffness() {
             Vec3::new((3.0 * x.x + 7.0 * x.y).sin(), (5.0 * x.y + x.x * x.z).cos(), (4.0 * x.x).sin())
         });
         let energy = q.dot(&(dense_stiffness(&body) * &q));
-        let (recovered, _) =
-            error_norms(&body, q.as_slice(), |_| (Vec3::zeros(), Matrix3::zeros())).unwrap();
+        let (recovered, _) = error_norms(&body, q.as_slice(), |_| (Vec3::zeros(), Matrix3::zeros())).unwrap();
         assert!((recovered.energy.powi(2) / energy - 1.0).abs() < 1e-13, "{pair:?}");
     }
 }
