@@ -45,6 +45,12 @@ impl Mesh {
             slopes[0] += corner * (0.5 * e[0] * second);
             slopes[1] += corner * (0.5 * e[1] * first);
         }
+        // The coordinate that is constant on the facet exactly, so that nodes off it weigh nothing.
+        for i in 0..3 {
+            if corners.iter().all(|c| c[i] == corners[0][i]) {
+                xi[i] = corners[0][i];
+            }
+        }
         let sample = self.sample(facet.cell, xi.into());
         let along = sample.jacobian * slopes[0];
         let across = match self.space {
