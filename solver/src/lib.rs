@@ -7,5 +7,6 @@
 pub mod dem;
 pub mod error;
 pub mod fem;
+pub mod solve;
 pub mod space;
 pub mod work;

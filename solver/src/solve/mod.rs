@@ -1,0 +1,3 @@
+//! Solving: sparse factors and statics with constraints.
+
+pub mod sparse;
