@@ -10,6 +10,7 @@ pub mod bonding;
 pub mod grid;
 pub mod lattice;
 pub mod network;
+pub mod packing;
 pub mod section;
 pub mod skin;
 pub mod voronoi;
