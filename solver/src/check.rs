@@ -14,11 +14,17 @@ const TOUCH: f64 = 1e-6;
 /// The first thing that does not fit.
 pub fn model(model: &Model) -> Result<()> {
     if model.parts.is_empty() {
-        return Err(Error::Geometry { what: "model".to_owned(), message: "it has no bodies; add one".to_owned() });
+        return Err(Error::Geometry {
+            what: "model".to_owned(),
+            message: "it has no bodies; add one".to_owned(),
+        });
     }
     for part in &model.parts {
         if part.space() != model.space {
-            return Err(misfit(part, format!("it is {:?}, the model {:?}; bodies must share one space", part.space(), model.space)));
+            return Err(misfit(
+                part,
+                format!("it is {:?}, the model {:?}; bodies must share one space", part.space(), model.space),
+            ));
         }
         if part.positions().is_empty() {
             return Err(misfit(part, format!("it has no {}s", part.noun())));
@@ -39,13 +45,27 @@ fn misfit(part: &Part, message: String) -> Error {
 
 fn point_value(model: &Model, what: &str, v: &PointValue) -> Result<()> {
     let Some(part) = model.parts.get(v.part) else {
-        return Err(Error::Geometry { what: what.to_owned(), message: format!("there is no part {}", v.part) });
+        return Err(Error::Geometry {
+            what: what.to_owned(),
+            message: format!("there is no part {}", v.part),
+        });
     };
     if v.point >= part.positions().len() {
-        return Err(misfit(part, format!("a {what} names {} {}, but it has {}", part.noun(), v.point, part.positions().len())));
+        return Err(misfit(
+            part,
+            format!("a {what} names {} {}, but it has {}", part.noun(), v.point, part.positions().len()),
+        ));
     }
     if v.component >= part.dofs_per_point() {
-        return Err(misfit(part, format!("a {what} acts on component {}, but a {} has {}", v.component, part.noun(), part.dofs_per_point())));
+        return Err(misfit(
+            part,
+            format!(
+                "a {what} acts on component {}, but a {} has {}",
+                v.component,
+                part.noun(),
+                part.dofs_per_point()
+            ),
+        ));
     }
     if !v.value.is_finite() {
         return Err(misfit(part, format!("the {what} on {} {} is not finite", part.noun(), v.point)));
@@ -70,7 +90,11 @@ fn overlaps(model: &Model) -> Result<()> {
                 _ => inside(first, second, TOUCH * size) || inside(second, first, TOUCH * size),
             };
             if meet {
-                return Err(Error::Overlap { first: first.name().to_owned(), second: second.name().to_owned(), overlap });
+                return Err(Error::Overlap {
+                    first: first.name().to_owned(),
+                    second: second.name().to_owned(),
+                    overlap,
+                });
             }
         }
     }
@@ -95,7 +119,9 @@ fn inside(part: &Part, body: &Part, touch: f64) -> bool {
             && directions.iter().all(|d| [touch, -touch].iter().all(|s| locator.find(x + d * *s).is_some()))
     };
     let centres = match part {
-        Part::Continuum(c) => (0..c.mesh.cell_count()).map(|i| centre(c.mesh.cell(i), &c.mesh.nodes)).collect(),
+        Part::Continuum(c) => {
+            (0..c.mesh.cell_count()).map(|i| centre(c.mesh.cell(i), &c.mesh.nodes)).collect()
+        }
         Part::Discrete { .. } => Vec::new(),
     };
     part.positions().iter().chain(&centres).any(deep)

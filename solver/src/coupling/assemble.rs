@@ -68,7 +68,13 @@ fn side<'a>(model: &'a Model, numbering: &Numbering, tie: &Tie, end: &(usize, St
             (Trace::of_particles(model.space, points, positions, &tie.name)?, Turning::Particles)
         }
     };
-    Ok(Side { trace, offset: numbering.offset(*index), per_point: part.dofs_per_point(), turning, name: part.name() })
+    Ok(Side {
+        trace,
+        offset: numbering.offset(*index),
+        per_point: part.dofs_per_point(),
+        turning,
+        name: part.name(),
+    })
 }
 
 fn faces(part: &Part) -> String {

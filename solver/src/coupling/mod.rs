@@ -27,7 +27,8 @@ pub struct Row {
 }
 
 impl Row {
-    /// A row from terms in any order; those of one unknown add up, zeros vanish.
+    /// A row from terms in any order; those of one unknown add up, and what is rounding beside the largest
+    /// coefficient vanishes: once supports are taken out it could be all that is left of a row.
     pub fn new(mut terms: Vec<(usize, f64)>, label: String, position: crate::space::Vec3) -> Self {
         terms.sort_by_key(|t| t.0);
         let mut merged: Vec<(usize, f64)> = Vec::with_capacity(terms.len());
@@ -37,7 +38,8 @@ impl Row {
                 _ => merged.push((unknown, value)),
             }
         }
-        merged.retain(|t| t.1 != 0.0);
+        let largest = merged.iter().fold(0.0f64, |m, t| m.max(t.1.abs()));
+        merged.retain(|t| t.1.abs() > 1e-12 * largest);
         Row { terms: merged, label, position }
     }
 }

@@ -24,7 +24,13 @@ struct QuadraturePoint {
 ///
 /// # Errors
 /// The faces do not overlap.
-pub fn rows(tie: &str, frame: &Frame, sides: [&Side; 2], carrier: usize, rotations: bool) -> Result<Vec<Row>> {
+pub fn rows(
+    tie: &str,
+    frame: &Frame,
+    sides: [&Side; 2],
+    carrier: usize,
+    rotations: bool,
+) -> Result<Vec<Row>> {
     let space = sides[0].trace.space;
     let channels = space.dim() + if rotations { space.rotations() } else { 0 };
     // Per multiplier: ∫ψ and the terms of each channel.
@@ -70,7 +76,8 @@ pub fn rows(tie: &str, frame: &Frame, sides: [&Side; 2], carrier: usize, rotatio
             terms.iter_mut().for_each(|t| t.1 /= measure);
             let point = side.trace.points[k];
             let name = component_name(space, c);
-            let label = format!("tie '{tie}': average about {} {point} of '{}', {name}", side.noun(), side.name);
+            let label =
+                format!("tie '{tie}': average about {} {point} of '{}', {name}", side.noun(), side.name);
             let row = Row::new(terms, label, side.position(k));
             if !row.terms.is_empty() {
                 rows.push(row);
@@ -78,7 +85,10 @@ pub fn rows(tie: &str, frame: &Frame, sides: [&Side; 2], carrier: usize, rotatio
         }
     }
     if rows.is_empty() {
-        let message = format!("the faces of '{}' and '{}' do not overlap; check the faces named", sides[0].name, sides[1].name);
+        let message = format!(
+            "the faces of '{}' and '{}' do not overlap; check the faces named",
+            sides[0].name, sides[1].name
+        );
         return Err(Error::EmptyInterface { tie: tie.to_owned(), message });
     }
     Ok(rows)
@@ -113,7 +123,12 @@ fn common_refinement(frame: &Frame, sides: [&Side; 2]) -> Vec<QuadraturePoint> {
 }
 
 /// Three Gauss points (exact to degree 5: linear ψ, linear N and a quadratic curl) on the overlap of two segments.
-fn quadrature_on_segment(first: &[FacePoint], second: &[FacePoint], facets: [usize; 2], points: &mut Vec<QuadraturePoint>) {
+fn quadrature_on_segment(
+    first: &[FacePoint],
+    second: &[FacePoint],
+    facets: [usize; 2],
+    points: &mut Vec<QuadraturePoint>,
+) {
     let ends = |s: &[FacePoint]| (s[0].x.min(s[1].x), s[0].x.max(s[1].x));
     let (lo, hi) = (ends(first).0.max(ends(second).0), ends(first).1.min(ends(second).1));
     if hi <= lo {
@@ -126,7 +141,12 @@ fn quadrature_on_segment(first: &[FacePoint], second: &[FacePoint], facets: [usi
 }
 
 /// Six points per triangle (degree 4, Dunavant 1985) on the overlap of two convex polygons.
-fn quadrature_on_polygon(first: &[FacePoint], second: &[FacePoint], facets: [usize; 2], points: &mut Vec<QuadraturePoint>) {
+fn quadrature_on_polygon(
+    first: &[FacePoint],
+    second: &[FacePoint],
+    facets: [usize; 2],
+    points: &mut Vec<QuadraturePoint>,
+) {
     const RULE: [(f64, f64); 2] =
         [(0.445_948_490_915_965, 0.223_381_589_678_011), (0.091_576_213_509_771, 0.109_951_743_655_322)];
     let overlap = clip(first, second);
@@ -181,7 +201,9 @@ mod tests {
     #[test]
     fn overlap_of_shifted_squares_has_the_right_area() {
         let square = |x: f64, y: f64| {
-            [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(|[a, b]| FacePoint::new(a + x, b + y)).to_vec()
+            [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]
+                .map(|[a, b]| FacePoint::new(a + x, b + y))
+                .to_vec()
         };
         let overlap = clip(&square(0.0, 0.0), &square(0.25, -0.5));
         assert!((area(&overlap) - 0.375).abs() < 1e-15);

@@ -33,7 +33,12 @@ pub fn rows(tie: &str, frame: &Frame, tied: &Side, onto: &Side, rotations: bool)
         }
     }
     if rows.is_empty() {
-        let message = format!("no {} of '{}' lies on the face of '{}'; check the faces named", tied.noun(), tied.name, onto.name);
+        let message = format!(
+            "no {} of '{}' lies on the face of '{}'; check the faces named",
+            tied.noun(),
+            tied.name,
+            onto.name
+        );
         return Err(Error::EmptyInterface { tie: tie.to_owned(), message });
     }
     Ok(rows)

@@ -59,9 +59,15 @@ pub fn independent(rows: &[Row], rhs: &[f64], scale: f64) -> Result<Independent>
                 by_pivot.insert(pivot, reduced);
             }
             None => {
-                let others: Vec<&str> =
-                    reduced.from.iter().filter(|i| **i != index).take(4).map(|&i| rows[i].label.as_str()).collect();
-                let others = if others.is_empty() { "the supports alone".to_owned() } else { others.join("; ") };
+                let others: Vec<&str> = reduced
+                    .from
+                    .iter()
+                    .filter(|i| **i != index)
+                    .take(4)
+                    .map(|&i| rows[i].label.as_str())
+                    .collect();
+                let others =
+                    if others.is_empty() { "the supports alone".to_owned() } else { others.join("; ") };
                 if reduced.rhs.abs() > VANISHED * scale {
                     return Err(Error::Contradiction { row: row.label.clone(), gap: reduced.rhs, others });
                 }
@@ -98,7 +104,9 @@ fn reduce(row: &mut Reduced, by_pivot: &BTreeMap<usize, Reduced>, zero: f64) {
 fn choose_pivot(terms: &BTreeMap<usize, f64>, touches: &BTreeMap<usize, usize>) -> Option<usize> {
     let largest = terms.values().fold(0.0f64, |m, v| m.max(v.abs()));
     let large = terms.iter().filter(|(_, v)| v.abs() >= 0.1 * largest);
-    large.min_by_key(|(column, _)| (touches.get(column).copied().unwrap_or(0), **column)).map(|(column, _)| *column)
+    large
+        .min_by_key(|(column, _)| (touches.get(column).copied().unwrap_or(0), **column))
+        .map(|(column, _)| *column)
 }
 
 #[cfg(test)]

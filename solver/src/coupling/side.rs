@@ -57,7 +57,13 @@ impl Side<'_> {
 
     /// Rotation about `axis` at a point of the face: `Σ N_i θ_i` for particles,
     /// `½ (∂_a u_b − ∂_b u_a)` with `(axis, a, b)` cyclic for elements; `None` outside the body.
-    pub fn rotation(&self, frame: &Frame, s: &FacePoint, weights: &[(usize, f64)], axis: usize) -> Option<Terms> {
+    pub fn rotation(
+        &self,
+        frame: &Frame,
+        s: &FacePoint,
+        weights: &[(usize, f64)],
+        axis: usize,
+    ) -> Option<Terms> {
         match &self.turning {
             Turning::Particles => {
                 let component = match self.trace.space {
@@ -73,7 +79,9 @@ impl Side<'_> {
                 Some(
                     at.gradients
                         .iter()
-                        .flat_map(|(node, g)| [(unknown(*node, b), 0.5 * g[a]), (unknown(*node, a), -0.5 * g[b])])
+                        .flat_map(|(node, g)| {
+                            [(unknown(*node, b), 0.5 * g[a]), (unknown(*node, a), -0.5 * g[b])]
+                        })
                         .collect(),
                 )
             }

@@ -40,7 +40,8 @@ impl Frame {
     /// # Errors
     /// Fewer points than span a face, or points that are not flat within 1e-6 of its size.
     pub fn fit(space: Space, positions: &[Vec3], tie: &str) -> Result<Frame> {
-        let empty = |message: &str| Error::EmptyInterface { tie: tie.to_owned(), message: message.to_owned() };
+        let empty =
+            |message: &str| Error::EmptyInterface { tie: tie.to_owned(), message: message.to_owned() };
         let origin = *positions.first().ok_or_else(|| empty("a face has no points"))?;
         let farthest = |from: &dyn Fn(&Vec3) -> f64| {
             positions.iter().map(|p| (from(p), *p)).fold((0.0, origin), |a, b| if b.0 > a.0 { b } else { a })
@@ -66,7 +67,9 @@ impl Frame {
         let frame = Frame { origin, tangents: [t1, t2], normal };
         let bump = positions.iter().map(|p| frame.height(p).abs()).fold(0.0, f64::max);
         if bump > 1e-6 * size {
-            return Err(empty(&format!("the face is not flat (off by {bump:.3e} m); tie flat faces one by one")));
+            return Err(empty(&format!(
+                "the face is not flat (off by {bump:.3e} m); tie flat faces one by one"
+            )));
         }
         Ok(frame)
     }
@@ -238,7 +241,9 @@ fn bilinear(corners: &[FacePoint], s: &FacePoint) -> Option<Vec<f64>> {
     for _ in 0..20 {
         let x: FacePoint = corners.iter().zip(n(xi, eta)).map(|(c, n)| c * n).sum();
         let along = |k: usize| -> FacePoint {
-            let d = |[a, b]: [f64; 2]| if k == 0 { 0.25 * a * (1.0 + b * eta) } else { 0.25 * b * (1.0 + a * xi) };
+            let d = |[a, b]: [f64; 2]| {
+                if k == 0 { 0.25 * a * (1.0 + b * eta) } else { 0.25 * b * (1.0 + a * xi) }
+            };
             corners.iter().zip(CORNER).map(|(c, ab)| c * d(ab)).sum()
         };
         let (g1, g2, r) = (along(0), along(1), s - x);

@@ -58,8 +58,10 @@ pub fn bond_shares(faces: &BTreeMap<String, Vec<usize>>, particles: usize, pairs
 /// # Errors
 /// Fewer than two row spacings, or rows that are not equally spaced: use [`Skin::Weighted`] there.
 pub fn second_moment_shares(arrangement: &Arrangement, pairs: &[Pair]) -> Result<Vec<f64>> {
-    let ends: BTreeMap<String, Vec<usize>> =
-        ["left", "right"].iter().filter_map(|f| Some(((*f).to_owned(), arrangement.faces.get(*f)?.clone()))).collect();
+    let ends: BTreeMap<String, Vec<usize>> = ["left", "right"]
+        .iter()
+        .filter_map(|f| Some(((*f).to_owned(), arrangement.faces.get(*f)?.clone())))
+        .collect();
     let mut weights = bond_shares(&ends, arrangement.particles.len(), pairs);
     for axis in 1..arrangement.space.dim() {
         let (rows, of) = rows_along(arrangement, axis)?;
@@ -84,7 +86,8 @@ fn rows_along(arrangement: &Arrangement, axis: usize) -> Result<(usize, Vec<usiz
     levels.sort_by(f64::total_cmp);
     levels.dedup_by(|b, a| (*b - *a).abs() < 1e-9 * side);
     let rows = levels.len() - 1;
-    let even = levels.iter().enumerate().all(|(k, y)| (y - low - side * k as f64 / rows as f64).abs() < 1e-6 * side);
+    let even =
+        levels.iter().enumerate().all(|(k, y)| (y - low - side * k as f64 / rows as f64).abs() < 1e-6 * side);
     if rows < 2 || !even {
         return Err(Error::Geometry {
             what: "second-moment skin".to_owned(),
@@ -186,8 +189,10 @@ mod tests {
     /// weights are off by `2/n²`.
     #[test]
     fn second_moment_skin_has_the_area_and_second_moment_of_the_beam() {
-        for (kind, rows) in [(LatticeKind::Square, 2), (LatticeKind::Triangular, 3), (LatticeKind::Square, 8)] {
-            let block = Block::new(Space::Plane, Vec3::new(0.0, -1.0, 0.0), Vec3::new(6.0, 1.0, 0.0)).unwrap();
+        for (kind, rows) in [(LatticeKind::Square, 2), (LatticeKind::Triangular, 3), (LatticeKind::Square, 8)]
+        {
+            let block =
+                Block::new(Space::Plane, Vec3::new(0.0, -1.0, 0.0), Vec3::new(6.0, 1.0, 0.0)).unwrap();
             let l = lattice(kind, block, rows, Default::default()).unwrap();
             let moments = |weights: &[f64]| {
                 let mut sums = [0.0; 2];
@@ -203,7 +208,8 @@ mod tests {
             };
             let [area, second] = moments(&second_moment_shares(&l.arrangement, &l.pairs).unwrap());
             assert!((area - 2.0).abs() < 1e-14 && (second - 8.0 / 12.0).abs() < 1e-14, "{area} {second}");
-            let [_, half] = moments(&bond_shares(&l.arrangement.faces, l.arrangement.particles.len(), &l.pairs));
+            let [_, half] =
+                moments(&bond_shares(&l.arrangement.faces, l.arrangement.particles.len(), &l.pairs));
             let n = rows as f64;
             assert!((half / (8.0 / 12.0) - 1.0 - 2.0 / (n * n)).abs() < 1e-13, "{half}");
         }

@@ -4,9 +4,10 @@
 //! to a unit diagonal (so that rotations and displacements, soft and stiff bodies weigh
 //! alike), B to unit rows. Factorised is the quasi-definite
 //!
-//! `[K + γBᵀB, Bᵀ; B, −ε]`, γ = 1, ε = 1e-7 in scaled units,
+//! `[K + γBᵀB + δ, Bᵀ; B, −ε]`, γ = 1, ε = 1e-10, δ = 1e-14 in scaled units,
 //!
-//! and refinement runs on the residual of the *true* system with the right-hand side
+//! (δ lets a mechanism through to where it is named; ε this small keeps refinement quick when rows
+//! are nearly dependent), and refinement runs on the residual of the *true* system with the right-hand side
 //! `[r_u + γBᵀr_λ; r_λ]` (Vanderbei 1995; augmented Lagrangian: Fortin and Glowinski 1983).
 
 use super::order::nested_dissection;
@@ -16,7 +17,8 @@ use crate::space::{Space, Vec3};
 use crate::work::Work;
 
 const GAMMA: f64 = 1.0;
-const EPSILON: f64 = 1e-7;
+const EPSILON: f64 = 1e-10;
+const DELTA: f64 = 1e-14;
 /// Refinement stops when the residual no longer halves, at the latest after this many steps.
 const MOST_REFINEMENTS: usize = 12;
 /// A solution with a larger relative residual is refused.
@@ -59,11 +61,18 @@ impl Kkt {
     ///
     /// # Errors
     /// An unknown without any stiffness or constraint, or a factorisation that fails.
-    pub fn new(stiffness: &SymmetricMatrix, rows: &[Vec<(usize, f64)>], layout: &Layout, work: &mut Work) -> Result<Self> {
+    pub fn new(
+        stiffness: &SymmetricMatrix,
+        rows: &[Vec<(usize, f64)>],
+        layout: &Layout,
+        work: &mut Work,
+    ) -> Result<Self> {
         let n = stiffness.len();
         let diagonal = stiffness.diagonal();
         if let Some(bad) = diagonal.iter().find(|d| !d.is_finite()) {
-            return Err(Error::Solve { message: format!("a stiffness is {bad}; look for NaN or infinite input") });
+            return Err(Error::Solve {
+                message: format!("a stiffness is {bad}; look for NaN or infinite input"),
+            });
         }
         let largest = diagonal.iter().fold(0.0f64, |m, d| m.max(*d));
         // An unknown without stiffness gets the largest one as its scale: a tie may still hold it.
@@ -82,6 +91,7 @@ impl Kkt {
             scaled.push(r, c, v * unknown_scale[r] * unknown_scale[c]);
         }
         let stiffness = SymmetricMatrix::from_triplets(n, &scaled);
+        (0..n).for_each(|i| scaled.push(i, i, DELTA));
         for (k, row) in scaled_rows.iter().enumerate() {
             for &(i, bi) in row {
                 row.iter().for_each(|&(j, bj)| scaled.push(i, j, GAMMA * bi * bj));
@@ -111,7 +121,9 @@ impl Kkt {
             let (mut r, size) = self.residual(&x, &f, &g);
             let now = norm(&r) / size.max(f64::MIN_POSITIVE);
             if !now.is_finite() {
-                return Err(Error::Solve { message: "the solution is not finite; look for a mechanism".to_owned() });
+                return Err(Error::Solve {
+                    message: "the solution is not finite; look for a mechanism".to_owned(),
+                });
             }
             let stalled = now > 0.5 * best.0;
             if now < best.0 {
@@ -167,7 +179,8 @@ impl Kkt {
     /// at the rounding floor it is a mechanism.
     pub fn softest_motion(&self, work: &mut Work) -> (Vec<f64>, f64) {
         let n = self.unknown_scale.len();
-        let mut z: Vec<f64> = (0..n + self.rows.len()).map(|i| (1.0 + i as f64 * 0.754_877_666).sin()).collect();
+        let mut z: Vec<f64> =
+            (0..n + self.rows.len()).map(|i| (1.0 + i as f64 * 0.754_877_666).sin()).collect();
         for _ in 0..2 {
             z[n..].fill(0.0);
             let length = z[..n].iter().map(|v| v * v).sum::<f64>().sqrt();
@@ -181,7 +194,8 @@ impl Kkt {
         let mut internal = vec![0.0; n];
         self.stiffness.multiply_add(&z, &mut internal);
         let strain: f64 = z.iter().zip(&internal).map(|(a, b)| a * b).sum();
-        let gap: f64 = self.rows.iter().map(|row| row.iter().map(|&(i, b)| b * z[i]).sum::<f64>().powi(2)).sum();
+        let gap: f64 =
+            self.rows.iter().map(|row| row.iter().map(|&(i, b)| b * z[i]).sum::<f64>().powi(2)).sum();
         let motion = z.iter().zip(&self.unknown_scale).map(|(x, s)| x * s).collect();
         (motion, strain.abs() + gap)
     }
@@ -192,8 +206,12 @@ fn factorise(matrix: &SymmetricMatrix, layout: &Layout) -> Result<Factor> {
         Space::Plane => Factor::new(matrix, Ordering::MinimumDegree),
         Space::Solid => {
             let points = layout.positions.len() as u32;
-            let group: Vec<u32> =
-                layout.group.iter().copied().chain((0..layout.row_positions.len() as u32).map(|k| points + k)).collect();
+            let group: Vec<u32> = layout
+                .group
+                .iter()
+                .copied()
+                .chain((0..layout.row_positions.len() as u32).map(|k| points + k))
+                .collect();
             let positions = [layout.positions, layout.row_positions].concat();
             Factor::new(matrix, Ordering::Given(&nested_dissection(matrix, &group, &positions)))
         }

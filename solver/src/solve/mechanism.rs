@@ -34,9 +34,16 @@ pub fn refuse(model: &Model, numbering: &Numbering, free: &[usize], softest: (Ve
             return Err(Error::Disconnected { body, count, first: moving.into_iter().take(5).collect() });
         }
         let u: Vec<Vec3> = moving.iter().map(|&i| displacement(model, numbering, &full, p, i)).collect();
-        bodies.push(format!("body '{}' is free to {}", part.name(), describe(model.space, part.positions(), &u)));
+        bodies.push(format!(
+            "body '{}' is free to {}",
+            part.name(),
+            describe(model.space, part.positions(), &u)
+        ));
     }
-    Err(Error::Mechanism { what: bodies.join("; "), mend: "add supports or ties that hold this motion".to_owned() })
+    Err(Error::Mechanism {
+        what: bodies.join("; "),
+        mend: "add supports or ties that hold this motion".to_owned(),
+    })
 }
 
 /// Length of the motion of each point of a part, over all its degrees of freedom.
@@ -77,7 +84,9 @@ fn describe(space: Space, positions: &[Vec3], u: &[Vec3]) -> String {
     let largest = fit.amax();
     let names = match space {
         Space::Plane => vec![(0, translations[0]), (1, translations[1]), (5, rotations[2])],
-        Space::Solid => (0..3).map(|k| (k, translations[k])).chain((0..3).map(|k| (3 + k, rotations[k]))).collect(),
+        Space::Solid => {
+            (0..3).map(|k| (k, translations[k])).chain((0..3).map(|k| (3 + k, rotations[k]))).collect()
+        }
     };
     let words: Vec<&str> = names.iter().filter(|(k, _)| fit[*k].abs() > 0.1 * largest).map(|n| n.1).collect();
     words.join(" and ")

@@ -125,7 +125,9 @@ mod tests {
         let mut sorted = order.clone();
         sorted.sort_unstable();
         assert_eq!(sorted, group);
-        let fill = |order: &[u32]| Factor::new(&matrix, Ordering::Given(order)).expect("positive definite").nonzeros();
+        let fill = |order: &[u32]| {
+            Factor::new(&matrix, Ordering::Given(order)).expect("positive definite").nonzeros()
+        };
         assert!(fill(&order) < fill(&group) / 2);
     }
 }

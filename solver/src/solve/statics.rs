@@ -83,7 +83,8 @@ pub fn solve(model: &Model) -> Result<Solution> {
     let (reduced, load) = eliminate(&stiffness, &f, &prescribed, &free, &place);
     let (group, positions) = points_of(model, &numbering, &free);
     let row_positions: Vec<Vec3> = tied.rows.iter().map(|r| r.position).collect();
-    let layout = Layout { space: model.space, group: &group, positions: &positions, row_positions: &row_positions };
+    let layout =
+        Layout { space: model.space, group: &group, positions: &positions, row_positions: &row_positions };
 
     let kkt = Kkt::new(&reduced, &tied.reduced, &layout, &mut work)?;
     drop(reduced);
@@ -136,13 +137,19 @@ struct Constraints {
     notes: Vec<String>,
 }
 
-fn constraints(model: &Model, numbering: &Numbering, prescribed: &[Option<f64>], place: &[usize]) -> Result<Constraints> {
+fn constraints(
+    model: &Model,
+    numbering: &Numbering,
+    prescribed: &[Option<f64>],
+    place: &[usize],
+) -> Result<Constraints> {
     let all = assemble::rows(model, numbering)?;
     let mut rhs = Vec::with_capacity(all.len());
     let mut reduced = Vec::with_capacity(all.len());
     for row in &all {
         rhs.push(-row.terms.iter().filter_map(|&(i, b)| Some(b * prescribed[i]?)).sum::<f64>());
-        let terms = row.terms.iter().filter(|t| prescribed[t.0].is_none()).map(|&(i, b)| (place[i], b)).collect();
+        let terms =
+            row.terms.iter().filter(|t| prescribed[t.0].is_none()).map(|&(i, b)| (place[i], b)).collect();
         reduced.push(Row { terms, label: row.label.clone(), position: row.position });
     }
     let scale = prescribed.iter().flatten().fold(f64::MIN_POSITIVE, |m, v| m.max(v.abs()));

@@ -35,7 +35,13 @@ pub fn throw(recipe: &PackingRecipe, rng: &mut impl Rng) -> Result<Thrown> {
             thrown.position.push(Vec3::from_fn(|axis, _| {
                 let (low, high) = (recipe.block.min[axis], recipe.block.max[axis]);
                 match stratum[axis] {
-                    Some(upper) => if upper { high } else { low },
+                    Some(upper) => {
+                        if upper {
+                            high
+                        } else {
+                            low
+                        }
+                    }
                     None => low + (high - low) * rng.random::<f64>(),
                 }
             }));
@@ -79,8 +85,7 @@ fn count(recipe: &PackingRecipe, stratum: &Stratum, owner: &[Stratum], radius: &
     if dim == 0 {
         return Ok(1);
     }
-    let fraction =
-        if dim == recipe.space.dim() { recipe.solid_fraction } else { BOUNDING_FRACTION[dim - 1] };
+    let fraction = if dim == recipe.space.dim() { recipe.solid_fraction } else { BOUNDING_FRACTION[dim - 1] };
     let sides = recipe.block.sides();
     let measure: f64 = (0..3).filter(|&axis| stratum[axis].is_none()).map(|axis| sides[axis]).product();
     let filled: f64 = owner
