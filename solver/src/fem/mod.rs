@@ -6,6 +6,7 @@ pub mod elasticity;
 pub mod element;
 pub mod facets;
 pub mod formulation;
+pub mod gmsh;
 pub mod h8;
 pub mod loads;
 pub mod locate;
