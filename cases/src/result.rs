@@ -59,7 +59,7 @@ pub struct CaseResult {
 }
 
 /// One effect of a scene.
-#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct EffectUse {
     /// Name as in the scene file, e.g. `rotation-coupling`.
     pub name: String,
@@ -221,6 +221,10 @@ pub struct Family {
     pub members: Vec<Member>,
     /// Whether these are all members of the family, or the quick subset.
     pub complete: bool,
+    /// "At the same cost": id of the claim, in the same case, whose paper-like setting says how many
+    /// particles a member may have. The claim then asks every member for the bound *and* the count.
+    #[serde(default)]
+    pub no_more_particles_than: Option<String>,
 }
 
 /// One member of a family.

@@ -1,1 +1,16 @@
 //! From measured results to verdicts, and from verdicts to tables, plots and the report page.
+//!
+//! [`judge::judge`] turns [`seam_cases::result::CaseResult`]s into [`results::Results`], the only source
+//! of every view: [`results::Results::write`] (`results.json`), [`terminal::table`], [`csv`],
+//! [`markdown`] and [`html`].
+
+pub mod claims;
+pub mod compare;
+pub mod exit;
+pub mod format;
+pub mod judge;
+pub mod record;
+pub mod results;
+pub mod schema;
+pub mod statistics;
+pub mod verdict;

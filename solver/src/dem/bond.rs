@@ -118,8 +118,8 @@ fn check_bond(network: &Network, body: &str, bond: usize) -> Result<()> {
     if i >= count || j >= count {
         return fail("no such particle; check the ids of the bond");
     }
-    if i == j || !(network.bond_length(bond) > 0.0) {
-        return fail("its ends coincide; remove the bond or one of the particles");
+    if i == j || !network.bond_length(bond).is_normal() {
+        return fail("its ends coincide or are not finite; remove the bond or one of the particles");
     }
     let BondStiffness { kn, ks, kb, kt } = network.bonds.stiffness[bond];
     let weight = network.bonds.weight[bond];
