@@ -10,6 +10,7 @@ pub mod gmsh;
 pub mod h8;
 pub mod loads;
 pub mod locate;
+pub mod manufactured;
 pub mod mesh;
 pub mod norms;
 pub mod q4;

@@ -1,0 +1,72 @@
+//! VTU files hold what was solved, in a form that reads back.
+
+use seam_solver::dem::network::{BondStiffness, Bonds, Network, Particles};
+use seam_solver::fem::continuum::Continuum;
+use seam_solver::fem::elasticity::{Elasticity, Hypothesis};
+use seam_solver::fem::formulation::Formulation;
+use seam_solver::fem::structured::grid;
+use seam_solver::space::{Space, Vec3};
+use seam_solver::vtu::{continuum_vtu, network_vtu};
+
+/// All numbers of one data array.
+fn array(text: &str, name: &str) -> Vec<f64> {
+    let (_, rest) = text.split_once(&format!("Name=\"{name}\"")).unwrap();
+    let (_, rest) = rest.split_once('>').unwrap();
+    rest.split_once("</DataArray>").unwrap().0.split_whitespace().map(|w| w.parse().unwrap()).collect()
+}
+
+#[test]
+fn a_stretched_body_reads_back() {
+    let body = Continuum {
+        name: "b".into(),
+        mesh: grid(&[vec![0.0, 1.0, 3.0], vec![0.0, 0.5]]).unwrap(),
+        elasticity: Elasticity { young_pa: 2.0, poisson: 0.0, density: 0.0 },
+        hypothesis: Hypothesis::PlaneStress { thickness_m: 1.0 },
+        formulation: Formulation::Plain,
+    };
+    let u: Vec<f64> = body.mesh.nodes.iter().flat_map(|x| [0.1 * x.x, 0.0]).collect();
+    let text = continuum_vtu(&body, &u).unwrap();
+    assert!(text.contains("NumberOfPoints=\"6\" NumberOfCells=\"2\""));
+    assert_eq!(array(&text, "connectivity"), [0.0, 1.0, 4.0, 3.0, 1.0, 2.0, 5.0, 4.0]);
+    assert_eq!(array(&text, "offsets"), [4.0, 8.0]);
+    assert_eq!(array(&text, "types"), [9.0, 9.0]);
+    let points = array(&text, "position_m");
+    let displacement = array(&text, "displacement_m");
+    for n in 0..6 {
+        assert_eq!(points[3 * n..3 * n + 3], body.mesh.nodes[n].as_slice()[..]);
+        assert_eq!(displacement[3 * n..3 * n + 3], [u[2 * n], u[2 * n + 1], 0.0]);
+    }
+    for stress in array(&text, "stress_Pa").chunks(6) {
+        assert!((stress[0] - 0.2).abs() < 1e-15 && stress[1..].iter().all(|s| s.abs() < 1e-15));
+    }
+    assert!(array(&text, "von_mises_Pa").iter().all(|s| (s - 0.2).abs() < 1e-15));
+}
+
+#[test]
+fn particles_are_vertices_and_bonds_lines() {
+    let network = Network {
+        space: Space::Plane,
+        particles: Particles {
+            position: vec![Vec3::zeros(), Vec3::x()],
+            radius: vec![0.5, 0.25],
+            mass: vec![1.0; 2],
+            inertia: vec![1.0; 2],
+        },
+        bonds: Bonds {
+            ends: vec![[0, 1]],
+            radius: vec![0.125],
+            stiffness: vec![BondStiffness::default()],
+            weight: vec![0.5],
+        },
+        faces: Default::default(),
+    };
+    let text = network_vtu(&network, &[Vec3::zeros(), Vec3::y()], &[Vec3::z(), Vec3::zeros()]);
+    assert_eq!(array(&text, "connectivity"), [0.0, 1.0, 0.0, 1.0]);
+    assert_eq!(array(&text, "types"), [1.0, 1.0, 3.0]);
+    assert_eq!(array(&text, "offsets"), [1.0, 2.0, 4.0]);
+    assert_eq!(array(&text, "radius_m"), [0.5, 0.25]);
+    assert_eq!(array(&text, "rotation_rad"), [0.0, 0.0, 1.0, 0.0, 0.0, 0.0]);
+    assert_eq!(array(&text, "is_bond"), [0.0, 0.0, 1.0]);
+    assert_eq!(array(&text, "cell_radius_m"), [0.5, 0.25, 0.125]);
+    assert_eq!(array(&text, "weight"), [1.0, 1.0, 0.5]);
+}
