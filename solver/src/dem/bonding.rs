@@ -208,6 +208,11 @@ pub fn periodic_network(
 fn bonds(arrangement: &Arrangement, pairs: &[Pair], recipe: &BondRecipe) -> Result<Bonds> {
     recipe.check()?;
     let shares = skin::bond_shares(&arrangement.faces, arrangement.particles.len(), pairs);
+    let weights = match recipe.skin {
+        Skin::Full => vec![1.0; pairs.len()],
+        Skin::Weighted => shares.clone(),
+        Skin::SecondMoment => skin::second_moment_shares(arrangement, pairs)?,
+    };
     let mut bonds = Bonds::default();
     for (b, (&pair, share)) in pairs.iter().zip(shares).enumerate() {
         let length = pair_vector(arrangement, pair).norm();
@@ -227,7 +232,7 @@ fn bonds(arrangement: &Arrangement, pairs: &[Pair], recipe: &BondRecipe) -> Resu
         bonds.ends.push(pair.ends);
         bonds.radius.push(radius);
         bonds.stiffness.push(recipe.material.cylinder(radius, length));
-        bonds.weight.push(if recipe.skin == Skin::Weighted { share } else { 1.0 });
+        bonds.weight.push(weights[b]);
     }
     Ok(bonds)
 }

@@ -20,32 +20,39 @@ pub fn refuse(model: &Model, numbering: &Numbering, free: &[usize], softest: (Ve
     }
     let mut full = vec![0.0; numbering.len()];
     free.iter().zip(&motion).for_each(|(&i, &v)| full[i] = v);
-    let mut moving = Vec::new();
-    for (p, part) in model.parts.iter().enumerate() {
-        let dim = model.space.dim();
-        let speed = |point: usize| {
-            (0..part.dofs_per_point()).map(|c| full[numbering.unknown(p, point, c)].powi(2)).sum::<f64>().sqrt()
-        };
-        let fastest = (0..part.positions().len()).map(speed).fold(0.0, f64::max);
-        let displacement = |point: usize| {
-            let mut u = Vec3::zeros();
-            (0..dim).for_each(|c| u[c] = full[numbering.unknown(p, point, c)]);
-            u
-        };
-        moving.push((fastest, p, displacement));
-    }
-    let top = moving.iter().map(|m| m.0).fold(0.0, f64::max);
+    let speeds: Vec<Vec<f64>> = (0..model.parts.len()).map(|p| speeds(model, numbering, &full, p)).collect();
+    let fastest = |part: &[f64]| part.iter().fold(0.0f64, |m, v| m.max(*v));
+    let top = speeds.iter().map(|s| fastest(s)).fold(0.0, f64::max);
     let mut bodies = Vec::new();
-    for (fastest, p, displacement) in moving.iter().filter(|m| m.0 > 1e-3 * top) {
-        let part = &model.parts[*p];
-        let points: Vec<usize> = (0..part.positions().len()).filter(|&i| displacement(i).norm() > 1e-3 * fastest).collect();
-        if points.len() < part.positions().len() {
-            return Err(Error::Disconnected { body: part.name().to_owned(), count: points.len(), first: points.into_iter().take(5).collect() });
+    for (p, part) in model.parts.iter().enumerate() {
+        let moving: Vec<usize> = (0..speeds[p].len()).filter(|&i| speeds[p][i] > 1e-3 * top).collect();
+        if moving.is_empty() {
+            continue;
         }
-        let u: Vec<Vec3> = points.iter().map(|&i| displacement(i)).collect();
+        if moving.len() < speeds[p].len() {
+            let (body, count) = (part.name().to_owned(), moving.len());
+            return Err(Error::Disconnected { body, count, first: moving.into_iter().take(5).collect() });
+        }
+        let u: Vec<Vec3> = moving.iter().map(|&i| displacement(model, numbering, &full, p, i)).collect();
         bodies.push(format!("body '{}' is free to {}", part.name(), describe(model.space, part.positions(), &u)));
     }
     Err(Error::Mechanism { what: bodies.join("; "), mend: "add supports or ties that hold this motion".to_owned() })
+}
+
+/// Length of the motion of each point of a part, over all its degrees of freedom.
+fn speeds(model: &Model, numbering: &Numbering, motion: &[f64], part: usize) -> Vec<f64> {
+    let body = &model.parts[part];
+    let of = |point: usize| {
+        let components = (0..body.dofs_per_point()).map(|c| motion[numbering.unknown(part, point, c)]);
+        components.map(|v| v * v).sum::<f64>().sqrt()
+    };
+    (0..body.positions().len()).map(of).collect()
+}
+
+fn displacement(model: &Model, numbering: &Numbering, motion: &[f64], part: usize, point: usize) -> Vec3 {
+    let mut u = Vec3::zeros();
+    (0..model.space.dim()).for_each(|c| u[c] = motion[numbering.unknown(part, point, c)]);
+    u
 }
 
 /// A rigid motion in words, from a least-squares fit of `u = t + ω × (x − x̄)`.
