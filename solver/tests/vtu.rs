@@ -5,8 +5,10 @@ use seam_solver::fem::continuum::Continuum;
 use seam_solver::fem::elasticity::{Elasticity, Hypothesis};
 use seam_solver::fem::formulation::Formulation;
 use seam_solver::fem::structured::grid;
+use seam_solver::model::{Model, Part, PointValue};
+use seam_solver::solve::statics::solve;
 use seam_solver::space::{Space, Vec3};
-use seam_solver::vtu::{continuum_vtu, network_vtu};
+use seam_solver::vtu::{continuum_vtu, network_vtu, write_solution};
 
 /// All numbers of one data array.
 fn array(text: &str, name: &str) -> Vec<f64> {
@@ -69,4 +71,57 @@ fn particles_are_vertices_and_bonds_lines() {
     assert_eq!(array(&text, "is_bond"), [0.0, 0.0, 1.0]);
     assert_eq!(array(&text, "cell_radius_m"), [0.5, 0.25, 0.125]);
     assert_eq!(array(&text, "weight"), [1.0, 1.0, 0.5]);
+}
+
+/// Two particles joined by a bond and a cell, held and pulled; each in its own file, whatever its name.
+#[test]
+fn a_solution_is_written_body_by_body() {
+    let cell = Continuum {
+        name: "a b".into(),
+        mesh: grid(&[vec![0.0, 1.0], vec![0.0, 1.0]]).unwrap(),
+        elasticity: Elasticity { young_pa: 2.0, poisson: 0.0, density: 0.0 },
+        hypothesis: Hypothesis::PlaneStress { thickness_m: 1.0 },
+        formulation: Formulation::Plain,
+    };
+    let network = Network {
+        space: Space::Plane,
+        particles: Particles {
+            position: vec![Vec3::new(5.0, 0.0, 0.0), Vec3::new(6.0, 0.0, 0.0)],
+            radius: vec![0.5; 2],
+            mass: vec![1.0; 2],
+            inertia: vec![1.0; 2],
+        },
+        bonds: Bonds {
+            ends: vec![[0, 1]],
+            radius: vec![0.1],
+            stiffness: vec![BondStiffness { kn: 4.0, ks: 12.0, kb: 1.0, kt: 1.0 }],
+            weight: vec![1.0],
+        },
+        faces: Default::default(),
+    };
+    let at = |part, point, component, value| PointValue { part, point, component, value };
+    // The left edge held, the right one pulled by 0.2 N; a cantilever of one bond pulled and pushed up.
+    let held = [0, 2].into_iter().flat_map(|node| [at(0, node, 0, 0.0), at(0, node, 1, 0.0)]);
+    let model = Model {
+        space: Space::Plane,
+        parts: vec![Part::Continuum(cell), Part::Discrete { name: "a/b".into(), network }],
+        ties: Vec::new(),
+        supports: held.chain((0..3).map(|c| at(1, 0, c, 0.0))).collect(),
+        loads: vec![at(0, 1, 0, 0.1), at(0, 3, 0, 0.1), at(1, 1, 0, 2.0), at(1, 1, 1, 3.0)],
+    };
+    let folder = tempfile::tempdir().unwrap();
+    let paths = write_solution(folder.path(), &model, &solve(&model).unwrap()).unwrap();
+    let names: Vec<&str> = paths.iter().map(|p| p.file_name().unwrap().to_str().unwrap()).collect();
+    assert_eq!(names, ["a_b.vtu", "a_b-1.vtu"]);
+    let texts: Vec<String> = paths.iter().map(|p| std::fs::read_to_string(p).unwrap()).collect();
+    let near = |computed: Vec<f64>, exact: &[f64]| {
+        assert_eq!(computed.len(), exact.len());
+        // Direct solves of a dozen well-scaled unknowns.
+        assert!(computed.iter().zip(exact).all(|(a, b)| (a - b).abs() < 1e-12), "{computed:?} {exact:?}");
+    };
+    // u = FL/EA = 0.1 m.
+    near(array(&texts[0], "displacement_m"), &[0.0, 0.0, 0.0, 0.1, 0.0, 0.0, 0.0, 0.0, 0.0, 0.1, 0.0, 0.0]);
+    // u = N/k_n; w = PL³/3EI and θ = PL²/2EI with EI = k_b L = 1, k_s = 12.
+    near(array(&texts[1], "displacement_m"), &[0.0, 0.0, 0.0, 0.5, 1.0, 0.0]);
+    near(array(&texts[1], "rotation_rad"), &[0.0, 0.0, 0.0, 0.0, 0.0, 1.5]);
 }
