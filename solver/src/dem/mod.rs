@@ -7,6 +7,7 @@ pub mod arrangement;
 pub mod block;
 pub mod bond;
 pub mod bonding;
+pub mod calibration;
 pub mod grid;
 pub mod lattice;
 pub mod network;
