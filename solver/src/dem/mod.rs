@@ -11,6 +11,7 @@ pub mod calibration;
 pub mod grid;
 pub mod lattice;
 pub mod network;
+pub mod network_csv;
 pub mod packing;
 pub mod section;
 pub mod skin;
