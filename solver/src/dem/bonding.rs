@@ -8,6 +8,7 @@ use super::section::Section;
 use super::skin::{self, Skin};
 use crate::error::{Error, Result};
 use crate::space::Vec3;
+use serde::{Deserialize, Serialize};
 
 /// Two particles to be bonded.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -27,6 +28,44 @@ impl Pair {
     /// Of the two directions in which a pair can be written, whether this is the one that is kept.
     fn is_first(i: usize, j: usize, shift: [i8; 3]) -> bool {
         i < j || (i == j && shift > [0; 3])
+    }
+}
+
+/// A rule for who is bonded to whom.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Bonding {
+    /// [`by_gap`], the gap given as a share of the mean radius.
+    Gap {
+        /// Largest gap over the mean radius.
+        share: f64,
+    },
+    /// [`by_coordination`].
+    Coordination {
+        /// Mean coordination number.
+        z: f64,
+    },
+    /// [`delaunay`].
+    Delaunay {
+        /// Smallest facet, as a share of the face of a mean cell.
+        least_share: f64,
+    },
+}
+
+impl Bonding {
+    /// The pairs of an arrangement, ascending.
+    ///
+    /// # Errors
+    /// A coordination number out of reach.
+    pub fn pairs(self, arrangement: &Arrangement) -> Result<Vec<Pair>> {
+        match self {
+            Bonding::Gap { share } => {
+                let radius = &arrangement.particles.radius;
+                Ok(by_gap(arrangement, share * radius.iter().sum::<f64>() / radius.len().max(1) as f64))
+            }
+            Bonding::Coordination { z } => Ok(by_coordination(arrangement, z)?.0),
+            Bonding::Delaunay { least_share } => Ok(delaunay(arrangement, least_share)),
+        }
     }
 }
 
@@ -60,6 +99,11 @@ impl PeriodicNetwork {
         let [i, j] = self.network.bonds.ends[bond];
         let x = &self.network.particles.position;
         x[j] - x[i] + period(self.cell, self.shift[bond])
+    }
+
+    /// Volume of the period, in m³; in the plane its area times the thickness.
+    pub fn volume(&self) -> f64 {
+        self.cell.iter().take(self.network.space.dim()).product::<f64>() * self.thickness_m
     }
 }
 

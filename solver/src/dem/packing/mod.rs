@@ -81,21 +81,23 @@ pub struct Packing {
 }
 
 impl PackingRecipe {
-    /// A periodic square or cube of `count` particles of mean radius 1 m.
+    /// A periodic square or cube of `count` particles of a mean radius (m).
     ///
     /// # Errors
     /// No particles, or a solid fraction or spread outside its range.
     pub fn periodic(
         space: Space,
         count: usize,
+        mean_radius_m: f64,
         solid_fraction: f64,
         radius_spread: f64,
         seed: u64,
     ) -> Result<Self> {
         let volume = count as f64 * mean_content(space.dim(), radius_spread) / solid_fraction;
-        let block = Block::at_origin(space, Vec3::repeat(volume.powf(1.0 / space.dim() as f64)))?;
+        let side = mean_radius_m * volume.powf(1.0 / space.dim() as f64);
+        let block = Block::at_origin(space, Vec3::repeat(side))?;
         let boundary = Boundary::Periodic;
-        let recipe = Self { space, block, boundary, mean_radius_m: 1.0, solid_fraction, radius_spread, seed };
+        let recipe = Self { space, block, boundary, mean_radius_m, solid_fraction, radius_spread, seed };
         recipe.check()?;
         Ok(recipe)
     }
@@ -192,17 +194,82 @@ fn describe(arrangement: &Arrangement, seed: u64) -> PackingReport {
 mod tests {
     use super::*;
 
+    fn periodic(space: Space, seed: u64) -> PackingRecipe {
+        let fraction = if space == Space::Plane { 0.84 } else { 0.64 };
+        PackingRecipe::periodic(space, 400, 1e-3, fraction, 0.2, seed).unwrap()
+    }
+
+    fn packed(recipe: &PackingRecipe) -> Packing {
+        pack(recipe, Matter::default()).unwrap()
+    }
+
     #[test]
-    fn probe() {
-        for (space, n, phi) in [(Space::Solid, 2000, 0.64), (Space::Plane, 2000, 0.84)] {
-            let recipe = PackingRecipe::periodic(space, n, phi, 0.2, 1).unwrap();
-            let t = std::time::Instant::now();
-            let p = pack(&recipe, Matter::default()).unwrap();
-            println!("{:?} {:.2?}", p.report, t.elapsed());
-            let closed = PackingRecipe { boundary: Boundary::Closed, ..recipe };
-            let t = std::time::Instant::now();
-            let p = pack(&closed, Matter::default()).unwrap();
-            println!("{:?} {:.2?}", p.report, t.elapsed());
+    fn packings_are_what_was_asked_for() {
+        for space in [Space::Plane, Space::Solid] {
+            for boundary in [Boundary::Periodic, Boundary::Closed] {
+                let recipe = PackingRecipe { boundary, ..periodic(space, 3) };
+                let Packing { arrangement, report } = packed(&recipe);
+                assert!((report.solid_fraction / recipe.solid_fraction - 1.0).abs() < 1e-12, "{report:?}");
+                // The number of particles is whole, so the mean radius gives way a little; so does the spread around it.
+                assert!((report.mean_radius_m / 1e-3 - 1.0).abs() < 0.02, "{report:?}");
+                assert!((0.18..0.22).contains(&report.radius_spread), "{report:?}");
+                // Isostatic packings touch 2·dim neighbours; rattlers take a few per cent off, flat faces crowd.
+                let isostatic = 2.0 * space.dim() as f64;
+                assert!((report.coordination / isostatic - 1.0).abs() < 0.12, "{report:?}");
+                // Periodic ones relax fully; faces jam earlier. Both far below what changes a bond's length.
+                let most = if boundary == Boundary::Periodic { 0.01 } else { 0.06 };
+                assert!(report.largest_overlap < most, "{report:?}");
+                let mass: f64 = arrangement.particles.mass.iter().sum();
+                assert!((mass / recipe.block.measure(space) - 1.0).abs() < 1e-10);
+            }
+        }
+    }
+
+    #[test]
+    fn closed_packings_have_flat_faces() {
+        let recipe = PackingRecipe { boundary: Boundary::Closed, ..periodic(Space::Solid, 5) };
+        let Packing { arrangement, .. } = packed(&recipe);
+        let particles = &arrangement.particles;
+        let mut on_face = vec![false; particles.len()];
+        for &(name, axis, upper) in Block::faces(Space::Solid) {
+            let members = &arrangement.faces[name];
+            let end = if upper { recipe.block.max[axis] } else { recipe.block.min[axis] };
+            members.iter().for_each(|&p| on_face[p] = true);
+            assert!(members.iter().all(|&p| particles.position[p][axis] == end));
+            // Area of a face per particle of it, if discs fill some 0.8 of it.
+            let expected = 0.8 * recipe.block.sides().x.powi(2) / (PI * 1e-6);
+            assert!(
+                (members.len() as f64 / expected - 1.0).abs() < 0.3,
+                "{name}: {} {expected}",
+                members.len()
+            );
+        }
+        let inside = |p: &usize| !on_face[*p];
+        for p in (0..particles.len()).filter(inside) {
+            let x = particles.position[p];
+            let depth = (x - recipe.block.min).min().min((recipe.block.max - x).min());
+            assert!(depth > 0.85 * particles.radius[p], "particle {p} is {depth} m deep");
+        }
+    }
+
+    #[test]
+    fn the_same_seed_gives_the_same_bits() {
+        let recipe = periodic(Space::Plane, 11);
+        assert_eq!(packed(&recipe), packed(&recipe));
+        assert_ne!(packed(&recipe), packed(&PackingRecipe { seed: 12, ..recipe }));
+    }
+
+    #[test]
+    fn what_cannot_be_packed_is_refused() {
+        let good = periodic(Space::Solid, 1);
+        for bad in [
+            PackingRecipe { solid_fraction: 0.75, ..good },
+            PackingRecipe { solid_fraction: f64::NAN, ..good },
+            PackingRecipe { radius_spread: 0.8, ..good },
+            PackingRecipe { mean_radius_m: 1.0, ..good },
+            PackingRecipe { mean_radius_m: -1e-3, ..good },
+        ] {
+            assert!(pack(&bad, Matter::default()).is_err(), "{bad:?}");
         }
     }
 }
