@@ -2,4 +2,6 @@
 //!
 //! The road: scene file → model → solution → observation → [`result::CaseResult`].
 
+pub mod expression;
+pub mod names;
 pub mod result;

@@ -4,8 +4,14 @@
 //! It knows no scene file, no reference and no report: a [`model::Model`] goes in, a
 //! solution with its residual and its [`work::Work`] comes out.
 
+pub mod check;
+pub mod coupling;
 pub mod dem;
 pub mod error;
 pub mod fem;
+pub mod files;
+pub mod model;
+pub mod solve;
 pub mod space;
+pub mod vtu;
 pub mod work;

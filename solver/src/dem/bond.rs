@@ -68,6 +68,19 @@ pub fn stiffness_matrix(d: Vec3, k: BondStiffness) -> SMatrix<f64, 12, 12> {
 /// Which of the 12 degrees of freedom of a bond a space keeps.
 const PLANE_DOFS: [usize; 6] = [0, 1, 5, 6, 7, 11];
 
+/// Writes what a space keeps of a bond's stiffness matrix, row by row: 6×6 or 12×12 numbers.
+pub(super) fn keep_rows(space: Space, full: &SMatrix<f64, 12, 12>, k: &mut [f64; 144]) {
+    let n = 2 * space.dofs_per_particle();
+    for r in 0..n {
+        for c in 0..n {
+            k[r * n + c] = match space {
+                Space::Plane => full[(PLANE_DOFS[r], PLANE_DOFS[c])],
+                Space::Solid => full[(r, c)],
+            };
+        }
+    }
+}
+
 /// Calls `sink(dofs, k)` for every bond of positive weight: `dofs` are degrees of freedom
 /// of the network (particle · 3 or 6 + component), `k` the stiffness matrix of the bond times its
 /// weight, row by row.
@@ -89,22 +102,14 @@ pub fn for_each_stiffness(
         if weight == 0.0 {
             continue;
         }
-        let full =
-            stiffness_matrix(particles.position[j] - particles.position[i], network.bonds.stiffness[b])
-                * weight;
+        let d = particles.position[j] - particles.position[i];
+        let full = stiffness_matrix(d, network.bonds.stiffness[b]) * weight;
         for c in 0..per {
             dofs[c] = i * per + c;
             dofs[per + c] = j * per + c;
         }
         let n = 2 * per;
-        for r in 0..n {
-            for c in 0..n {
-                k[r * n + c] = match network.space {
-                    Space::Plane => full[(PLANE_DOFS[r], PLANE_DOFS[c])],
-                    Space::Solid => full[(r, c)],
-                };
-            }
-        }
+        keep_rows(network.space, &full, &mut k);
         sink(&dofs[..n], &k[..n * n]);
     }
     Ok(())
@@ -118,8 +123,8 @@ fn check_bond(network: &Network, body: &str, bond: usize) -> Result<()> {
     if i >= count || j >= count {
         return fail("no such particle; check the ids of the bond");
     }
-    if i == j || !(network.bond_length(bond) > 0.0) {
-        return fail("its ends coincide; remove the bond or one of the particles");
+    if i == j || !network.bond_length(bond).is_normal() {
+        return fail("its ends coincide or are not finite; remove the bond or one of the particles");
     }
     let BondStiffness { kn, ks, kb, kt } = network.bonds.stiffness[bond];
     let weight = network.bonds.weight[bond];

@@ -1,0 +1,254 @@
+//! Equilibrium under constraints: `K u + Bᵀλ = f`, `B u = g`.
+//!
+//! K alone may be singular: bodies may float and be held by ties only. The unknowns are scaled
+//! to a unit diagonal (so that rotations and displacements, soft and stiff bodies weigh
+//! alike), B to unit rows. Factorised is the quasi-definite
+//!
+//! `[K + γBᵀB + δ, Bᵀ; B, −ε]`, γ = 1, ε = 1e-11, δ = 1e-14 in scaled units,
+//!
+//! (δ lets a mechanism through to where it is named; ε this small keeps refinement quick when rows
+//! are nearly dependent), and refinement runs on the residual of the *true* system with the right-hand side
+//! `[r_u + γBᵀr_λ; r_λ]` (Vanderbei 1995; augmented Lagrangian: Fortin and Glowinski 1983).
+
+use super::order::nested_dissection;
+use super::sparse::{Factor, Ordering, SymmetricMatrix, Triplets};
+use crate::error::{Error, Result};
+use crate::space::{Space, Vec3};
+use crate::work::Work;
+
+const GAMMA: f64 = 1.0;
+const EPSILON: f64 = 1e-11;
+const DELTA: f64 = 1e-14;
+/// Refinement stops when the residual no longer halves, at the latest after this many steps.
+const MOST_REFINEMENTS: usize = 12;
+/// A solution with a larger relative residual is refused.
+pub const LARGEST_RESIDUAL: f64 = 1e-10;
+
+/// What the elimination order is made from.
+pub struct Layout<'a> {
+    /// Plane models are ordered by minimum degree, solid ones by nested dissection.
+    pub space: Space,
+    /// Point that each unknown belongs to, ascending from 0.
+    pub group: &'a [u32],
+    /// Position of each point.
+    pub positions: &'a [Vec3],
+    /// Position of each constraint row.
+    pub row_positions: &'a [Vec3],
+}
+
+/// A factorised system.
+pub struct Kkt {
+    stiffness: SymmetricMatrix,
+    rows: Vec<Vec<(usize, f64)>>,
+    unknown_scale: Vec<f64>,
+    row_scale: Vec<f64>,
+    factor: Factor,
+}
+
+/// Solution of one right-hand side.
+#[derive(Debug, Clone)]
+pub struct KktSolution {
+    /// Unknowns.
+    pub u: Vec<f64>,
+    /// Multipliers, one per row.
+    pub multipliers: Vec<f64>,
+    /// Largest residual of the true system relative to the terms it balances.
+    pub residual: f64,
+}
+
+impl Kkt {
+    /// Scales and factorises. `stiffness` is positive semi-definite on the free unknowns.
+    ///
+    /// # Errors
+    /// An unknown without any stiffness or constraint, or a factorisation that fails.
+    pub fn new(
+        stiffness: &SymmetricMatrix,
+        rows: &[Vec<(usize, f64)>],
+        layout: &Layout,
+        work: &mut Work,
+    ) -> Result<Self> {
+        let n = stiffness.len();
+        let diagonal = stiffness.diagonal();
+        if let Some(bad) = diagonal.iter().find(|d| !d.is_finite()) {
+            return Err(Error::Solve {
+                message: format!("a stiffness is {bad}; look for NaN or infinite input"),
+            });
+        }
+        let largest = diagonal.iter().fold(0.0f64, |m, d| m.max(*d));
+        // An unknown without stiffness gets the largest one as its scale: a tie may still hold it.
+        let scale_of = |d: &f64| if *d > 1e-14 * largest { 1.0 / d.sqrt() } else { 1.0 / largest.sqrt() };
+        let unknown_scale: Vec<f64> = diagonal.iter().map(scale_of).collect();
+        let mut scaled_rows: Vec<Vec<(usize, f64)>> = Vec::with_capacity(rows.len());
+        let mut row_scale = Vec::with_capacity(rows.len());
+        for row in rows {
+            let scaled: Vec<(usize, f64)> = row.iter().map(|&(i, b)| (i, b * unknown_scale[i])).collect();
+            let norm = scaled.iter().map(|t| t.1 * t.1).sum::<f64>().sqrt();
+            row_scale.push(1.0 / norm);
+            scaled_rows.push(scaled.into_iter().map(|(i, b)| (i, b / norm)).collect());
+        }
+        let mut scaled = Triplets::with_capacity(n * 10);
+        for (r, c, v) in stiffness.entries() {
+            scaled.push(r, c, v * unknown_scale[r] * unknown_scale[c]);
+        }
+        let stiffness = SymmetricMatrix::from_triplets(n, &scaled);
+        (0..n).for_each(|i| scaled.push(i, i, DELTA));
+        for (k, row) in scaled_rows.iter().enumerate() {
+            for &(i, bi) in row {
+                row.iter().for_each(|&(j, bj)| scaled.push(i, j, GAMMA * bi * bj));
+                scaled.push(n + k, i, bi);
+            }
+            scaled.push(n + k, n + k, -EPSILON);
+        }
+        let matrix = SymmetricMatrix::from_triplets(n + rows.len(), &scaled);
+        drop(scaled);
+        let factor = factorise(&matrix, layout)?;
+        work.factorisations += 1;
+        work.factor_nonzeros += factor.nonzeros() as u64;
+        Ok(Kkt { stiffness, rows: scaled_rows, unknown_scale, row_scale, factor })
+    }
+
+    /// Solves for forces `f` and prescribed constraint values `g`.
+    ///
+    /// # Errors
+    /// A residual that refinement cannot bring below [`LARGEST_RESIDUAL`].
+    pub fn solve(&self, f: &[f64], g: &[f64], work: &mut Work) -> Result<KktSolution> {
+        let (n, m) = (f.len(), g.len());
+        let f: Vec<f64> = f.iter().zip(&self.unknown_scale).map(|(f, s)| f * s).collect();
+        let g: Vec<f64> = g.iter().zip(&self.row_scale).map(|(g, s)| g * s).collect();
+        let mut x = vec![0.0; n + m];
+        let mut best = (f64::INFINITY, x.clone());
+        for _ in 0..MOST_REFINEMENTS {
+            let (mut r, now) = self.residual(&x, &f, &g);
+            if !now.is_finite() {
+                return Err(Error::Solve {
+                    message: "the solution is not finite; look for a mechanism".to_owned(),
+                });
+            }
+            let stalled = now > 0.5 * best.0;
+            if now < best.0 {
+                best = (now, x.clone());
+            }
+            if stalled || now == 0.0 {
+                break;
+            }
+            self.correct(&mut r, work);
+            x.iter_mut().zip(&r).for_each(|(x, d)| *x += d);
+        }
+        let (residual, x) = best;
+        if residual > LARGEST_RESIDUAL {
+            let message = format!(
+                "the residual stays at {residual:.1e} of the forces, above {LARGEST_RESIDUAL:.0e}; \
+                 look for a mechanism, contradicting supports or an extreme stiffness contrast"
+            );
+            return Err(Error::Solve { message });
+        }
+        Ok(KktSolution {
+            u: x[..n].iter().zip(&self.unknown_scale).map(|(x, s)| x * s).collect(),
+            multipliers: x[n..].iter().zip(&self.row_scale).map(|(x, s)| x * s).collect(),
+            residual,
+        })
+    }
+
+    /// Residual of the true scaled system, and its size relative to the forces and displacements that it
+    /// balances. Multipliers are no yardstick: they are large where rows are nearly dependent.
+    fn residual(&self, x: &[f64], f: &[f64], g: &[f64]) -> (Vec<f64>, f64) {
+        let n = f.len();
+        let mut internal = vec![0.0; n];
+        self.stiffness.multiply_add(&x[..n], &mut internal);
+        let force = norm(&internal).max(norm(f));
+        let mut motion = norm(g);
+        let mut r: Vec<f64> = f.iter().zip(&internal).map(|(f, k)| f - k).chain(g.iter().copied()).collect();
+        for (k, row) in self.rows.iter().enumerate() {
+            for &(i, b) in row {
+                r[i] -= b * x[n + k];
+                r[n + k] -= b * x[i];
+                motion = motion.max((b * x[i]).abs());
+            }
+        }
+        // A state of rest has nothing to be relative to.
+        let relative = |part: &[f64], size: f64| if size > 0.0 { norm(part) / size } else { norm(part) };
+        let size = relative(&r[..n], force).max(relative(&r[n..], motion));
+        (r, size)
+    }
+
+    /// Applies the factor to a residual: `[r_u + γBᵀr_λ; r_λ]` on the right-hand side.
+    fn correct(&self, r: &mut [f64], work: &mut Work) {
+        let n = self.unknown_scale.len();
+        for (k, row) in self.rows.iter().enumerate() {
+            row.iter().for_each(|&(i, b)| r[i] += GAMMA * b * r[n + k]);
+        }
+        self.factor.solve_in_place(r);
+        work.solves += 1;
+    }
+
+    /// The softest motion and its stiffness relative to a unit diagonal: at the rounding floor it is a mechanism.
+    ///
+    /// Two steps of inverse iteration, then one correction: the factor is only accurate to rounding over ε,
+    /// so that the motion would violate the constraints a little.
+    pub fn softest_motion(&self, work: &mut Work) -> (Vec<f64>, f64) {
+        let n = self.unknown_scale.len();
+        // Any start that is not orthogonal to the motion will do; irrational steps repeat no pattern.
+        let mut z: Vec<f64> =
+            (0..n + self.rows.len()).map(|i| (1.0 + i as f64 * 0.754_877_666).sin()).collect();
+        for _ in 0..2 {
+            z[n..].fill(0.0);
+            normalise(&mut z[..n]);
+            self.factor.solve_in_place(&mut z);
+            work.solves += 1;
+        }
+        z.truncate(n);
+        normalise(&mut z);
+        let (mut r, gap) = self.stiffness_and_gap(&z);
+        let stiffness = dot(&z, &r) + dot(&gap, &gap);
+        r.iter_mut().zip(&z).for_each(|(r, z)| *r -= stiffness * z);
+        r.extend(gap);
+        self.correct(&mut r, work);
+        let along = dot(&z, &r[..n]);
+        let corrected: Vec<f64> = z.iter().zip(&r).map(|(z, r)| z - (r - along * z)).collect();
+        let mut z = corrected;
+        normalise(&mut z);
+        let (r, gap) = self.stiffness_and_gap(&z);
+        let corrected = dot(&z, &r).abs() + dot(&gap, &gap);
+        let motion = z.iter().zip(&self.unknown_scale).map(|(x, s)| x * s).collect();
+        (motion, corrected.min(stiffness.abs()))
+    }
+
+    /// `K z` and `B z`, scaled.
+    fn stiffness_and_gap(&self, z: &[f64]) -> (Vec<f64>, Vec<f64>) {
+        let mut internal = vec![0.0; z.len()];
+        self.stiffness.multiply_add(z, &mut internal);
+        let gap = self.rows.iter().map(|row| row.iter().map(|&(i, b)| b * z[i]).sum()).collect();
+        (internal, gap)
+    }
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+fn normalise(z: &mut [f64]) {
+    let length = dot(z, z).sqrt();
+    z.iter_mut().for_each(|v| *v /= length);
+}
+
+fn factorise(matrix: &SymmetricMatrix, layout: &Layout) -> Result<Factor> {
+    match layout.space {
+        Space::Plane => Factor::new(matrix, Ordering::MinimumDegree),
+        Space::Solid => {
+            let points = layout.positions.len() as u32;
+            let group: Vec<u32> = layout
+                .group
+                .iter()
+                .copied()
+                .chain((0..layout.row_positions.len() as u32).map(|k| points + k))
+                .collect();
+            let positions = [layout.positions, layout.row_positions].concat();
+            Factor::new(matrix, Ordering::Given(&nested_dissection(matrix, &group, &positions)))
+        }
+    }
+}
+
+/// Largest magnitude; NaN if there is one.
+fn norm(x: &[f64]) -> f64 {
+    x.iter().fold(0.0, |m, v| if v.abs() > m || v.is_nan() { v.abs() } else { m })
+}

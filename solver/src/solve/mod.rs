@@ -1,0 +1,7 @@
+//! Solving: sparse factors and statics with constraints.
+
+pub mod kkt;
+pub mod mechanism;
+pub mod order;
+pub mod sparse;
+pub mod statics;

@@ -1,0 +1,280 @@
+//! Sparse symmetric matrices and their LDLᵀ factors.
+//!
+//! The factorisation is faer's supernodal LDLᵀ. It does not pivot, so it is meant for positive
+//! definite and quasi-definite matrices (Vanderbei 1995), whose factors exist in every order.
+//! Nothing here judges accuracy: [`super::kkt`] refines on the true residual and checks it.
+
+use crate::error::{Error, Result};
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::linalg::cholesky::ldlt::factor::LdltRegularization;
+use faer::perm::PermRef;
+
+use faer::sparse::linalg::SymbolicSupernodalParams;
+use faer::sparse::linalg::cholesky::{
+    CholeskySymbolicParams, LdltRef, SymbolicCholesky, SymmetricOrdering, factorize_symbolic_cholesky,
+};
+use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
+use faer::{Conj, MatMut, Par, Side, Spec};
+
+/// Entries of a symmetric matrix in the order they come; entries of the same place add up.
+#[derive(Debug, Clone, Default)]
+pub struct Triplets {
+    rows: Vec<u32>,
+    cols: Vec<u32>,
+    values: Vec<f64>,
+}
+
+impl Triplets {
+    /// Room for `capacity` entries.
+    pub fn with_capacity(capacity: usize) -> Self {
+        Triplets {
+            rows: Vec::with_capacity(capacity),
+            cols: Vec::with_capacity(capacity),
+            values: Vec::with_capacity(capacity),
+        }
+    }
+
+    /// Adds `value` at `(row, col)`. Only the lower triangle is kept: an entry above the
+    /// diagonal is dropped, so that both halves of a symmetric block may be pushed.
+    #[inline]
+    pub fn push(&mut self, row: usize, col: usize, value: f64) {
+        if row >= col {
+            self.rows.push(row as u32);
+            self.cols.push(col as u32);
+            self.values.push(value);
+        }
+    }
+
+    /// Adds a square block, row by row, on the given unknowns.
+    pub fn push_block(&mut self, dofs: &[usize], block: &[f64]) {
+        let n = dofs.len();
+        for (r, &row) in dofs.iter().enumerate() {
+            for (c, &col) in dofs.iter().enumerate() {
+                self.push(row, col, block[r * n + c]);
+            }
+        }
+    }
+}
+
+/// A symmetric matrix: its lower triangle by columns.
+#[derive(Debug, Clone, Default)]
+pub struct SymmetricMatrix {
+    n: usize,
+    column_start: Vec<u32>,
+    rows: Vec<u32>,
+    values: Vec<f64>,
+}
+
+impl SymmetricMatrix {
+    /// Sums the triplets into an `n × n` matrix.
+    pub fn from_triplets(n: usize, triplets: &Triplets) -> Self {
+        let mut start = vec![0usize; n + 1];
+        for &c in &triplets.cols {
+            start[c as usize + 1] += 1;
+        }
+        for c in 0..n {
+            start[c + 1] += start[c];
+        }
+        let mut next = start.clone();
+        let mut order = vec![0u32; triplets.cols.len()];
+        for (t, &c) in triplets.cols.iter().enumerate() {
+            order[next[c as usize]] = t as u32;
+            next[c as usize] += 1;
+        }
+        let mut matrix = SymmetricMatrix { n, column_start: vec![0], rows: Vec::new(), values: Vec::new() };
+        for c in 0..n {
+            let column = &mut order[start[c]..start[c + 1]];
+            // Ties keep the order of insertion, so that sums are the same bits every time.
+            column.sort_unstable_by_key(|&t| (triplets.rows[t as usize], t));
+            let first = matrix.rows.len();
+            for &t in column.iter() {
+                let (row, value) = (triplets.rows[t as usize], triplets.values[t as usize]);
+                match matrix.rows.last() {
+                    Some(&last) if matrix.rows.len() > first && last == row => {
+                        *matrix.values.last_mut().expect("rows and values have one length") += value;
+                    }
+                    _ => {
+                        matrix.rows.push(row);
+                        matrix.values.push(value);
+                    }
+                }
+            }
+            matrix.column_start.push(matrix.rows.len() as u32);
+        }
+        matrix
+    }
+
+    /// Number of rows and columns.
+    pub fn len(&self) -> usize {
+        self.n
+    }
+
+    /// Whether it has no rows.
+    pub fn is_empty(&self) -> bool {
+        self.n == 0
+    }
+
+    /// Entries of the lower triangle as `(row, column, value)`, by columns.
+    pub fn entries(&self) -> impl Iterator<Item = (usize, usize, f64)> + '_ {
+        (0..self.n).flat_map(move |c| self.column(c).map(move |(r, v)| (r, c, v)))
+    }
+
+    fn column(&self, c: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
+        let range = self.column_start[c] as usize..self.column_start[c + 1] as usize;
+        self.rows[range.clone()].iter().zip(&self.values[range]).map(|(&r, &v)| (r as usize, v))
+    }
+
+    /// The diagonal.
+    pub fn diagonal(&self) -> Vec<f64> {
+        (0..self.n).map(|c| self.column(c).find(|(r, _)| *r == c).map_or(0.0, |(_, v)| v)).collect()
+    }
+
+    /// `y += A x`.
+    pub fn multiply_add(&self, x: &[f64], y: &mut [f64]) {
+        for c in 0..self.n {
+            let mut sum = 0.0;
+            for (r, v) in self.column(c) {
+                y[r] += v * x[c];
+                if r != c {
+                    sum += v * x[r];
+                }
+            }
+            y[c] += sum;
+        }
+    }
+}
+
+/// How the unknowns are ordered before factorising.
+#[derive(Debug, Clone, Copy)]
+pub enum Ordering<'a> {
+    /// Approximate minimum degree.
+    MinimumDegree,
+    /// A given order: `order[k]` is the unknown that is eliminated as the `k`-th.
+    Given(&'a [u32]),
+}
+
+/// An LDLᵀ factor.
+pub struct Factor {
+    symbolic: SymbolicCholesky<u32>,
+    values: Vec<f64>,
+}
+
+impl Factor {
+    /// Factorises a positive definite or quasi-definite matrix.
+    ///
+    /// # Errors
+    /// A matrix that is too large, or whose factor has entries that are not finite.
+    pub fn new(matrix: &SymmetricMatrix, ordering: Ordering) -> Result<Self> {
+        let n = matrix.n;
+        let failed = |message: String| Error::Solve { message };
+        let structure = SymbolicSparseColMatRef::new_checked(n, n, &matrix.column_start, None, &matrix.rows);
+        let inverse = match ordering {
+            Ordering::MinimumDegree => Vec::new(),
+            Ordering::Given(order) => invert(order),
+        };
+        let order = match ordering {
+            Ordering::MinimumDegree => SymmetricOrdering::Amd,
+            Ordering::Given(order) => SymmetricOrdering::Custom(PermRef::new_checked(order, &inverse, n)),
+        };
+        let parameters = CholeskySymbolicParams {
+            supernodal_params: SymbolicSupernodalParams::default(),
+            ..Default::default()
+        };
+        let symbolic =
+            factorize_symbolic_cholesky(structure, Side::Lower, order, parameters).map_err(|e| {
+                failed(format!("symbolic factorisation of {n} unknowns failed: {e:?}; use a coarser model"))
+            })?;
+        let mut values = vec![0.0; symbolic.len_val()];
+        let scratch = symbolic.factorize_numeric_ldlt_scratch::<f64>(Par::Seq, Spec::default());
+        let mut memory = MemBuffer::try_new(scratch).map_err(|_| {
+            failed(format!("not enough memory to factorise {n} unknowns; use a coarser model"))
+        })?;
+        symbolic
+            .factorize_numeric_ldlt(
+                &mut values,
+                SparseColMatRef::new(structure, &matrix.values),
+                Side::Lower,
+                LdltRegularization::default(),
+                Par::Seq,
+                MemStack::new(&mut memory),
+                Spec::default(),
+            )
+            .map_err(|e| {
+                failed(format!(
+                    "the matrix cannot be factorised ({e:?}); look for a mechanism or a zero stiffness"
+                ))
+            })?;
+        if values.iter().any(|v| !v.is_finite()) {
+            return Err(failed(
+                "the factor is not finite; look for a mechanism, a zero stiffness or NaN in the input"
+                    .to_owned(),
+            ));
+        }
+        Ok(Factor { symbolic, values })
+    }
+
+    /// Number of stored values of the factor.
+    pub fn nonzeros(&self) -> usize {
+        self.values.len()
+    }
+
+    /// Solves `A x = b` in place.
+    pub fn solve_in_place(&self, b: &mut [f64]) {
+        let mut memory = MemBuffer::new(self.symbolic.solve_in_place_scratch::<f64>(1, Par::Seq));
+        let rows = b.len();
+        LdltRef::new(&self.symbolic, &self.values).solve_in_place_with_conj(
+            Conj::No,
+            MatMut::from_column_major_slice_mut(b, rows, 1),
+            Par::Seq,
+            MemStack::new(&mut memory),
+        );
+    }
+}
+
+fn invert(order: &[u32]) -> Vec<u32> {
+    let mut inverse = vec![0; order.len()];
+    for (k, &i) in order.iter().enumerate() {
+        inverse[i as usize] = k as u32;
+    }
+    inverse
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Chain of springs with a multiplier: quasi-definite, solved in two orders.
+    #[test]
+    fn solves_a_quasi_definite_matrix_in_any_order() {
+        let n = 40;
+        let mut t = Triplets::default();
+        for i in 0..n {
+            t.push(i, i, if i == n - 1 { -1e-3 } else { 2.0 });
+            if i > 0 {
+                t.push(i, i - 1, -0.9);
+            }
+        }
+        let a = SymmetricMatrix::from_triplets(n, &t);
+        let x: Vec<f64> = (0..n).map(|i| (i as f64).sin()).collect();
+        let mut b = vec![0.0; n];
+        a.multiply_add(&x, &mut b);
+        let reversed: Vec<u32> = (0..n as u32).rev().collect();
+        for ordering in [Ordering::MinimumDegree, Ordering::Given(&reversed)] {
+            let factor = Factor::new(&a, ordering).expect("it factorises");
+            let mut y = b.clone();
+            factor.solve_in_place(&mut y);
+            let error = x.iter().zip(&y).map(|(p, q)| (p - q).abs()).fold(0.0, f64::max);
+            assert!(error < 1e-11, "{error:e}");
+        }
+    }
+
+    #[test]
+    fn entries_of_one_place_add_up() {
+        let mut t = Triplets::default();
+        t.push_block(&[1, 0], &[1.0, 2.0, 2.0, 3.0]);
+        t.push_block(&[0, 1], &[1.0, 2.0, 2.0, 3.0]);
+        let a = SymmetricMatrix::from_triplets(2, &t);
+        let entries: Vec<_> = a.entries().collect();
+        assert_eq!(entries, [(0, 0, 4.0), (1, 0, 4.0), (1, 1, 4.0)]);
+    }
+}

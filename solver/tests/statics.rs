@@ -1,0 +1,170 @@
+//! What statics must get right besides numbers: floating bodies, dependent rows, mechanisms, bad input.
+
+mod common;
+
+use common::{Sandwich, continuum, prescribe};
+use seam_solver::coupling::{Method, Multipliers, Tie};
+use seam_solver::error::Error;
+use seam_solver::model::{Model, Part, PointValue};
+use seam_solver::solve::statics;
+use seam_solver::space::{Space, Vec3};
+
+fn held() -> Model {
+    let mut model = Sandwich::plane(4, 4, 4, Method::Pointwise).model();
+    prescribe(&mut model, |x| x.x < 1e-9, |_| Vec3::zeros());
+    model.loads.push(PointValue { part: 2, point: 0, component: 1, value: -10.0 });
+    model
+}
+
+/// Cantilever of three tied meshes against one mesh: matching pointwise ties are shared nodes.
+#[test]
+fn three_tied_meshes_are_one_mesh() {
+    let at = |x: f64, upper: f64| Vec3::new(x, upper, 0.0);
+    let body = |name: &str, a: f64, b: f64, n: usize| {
+        Part::Continuum(continuum(name, Space::Plane, at(a, 0.0), at(b, 1.0), [n, 4, 0]))
+    };
+    let tie = |k: usize| Tie {
+        name: format!("t{k}"),
+        first: (k, "right".to_owned()),
+        second: (k + 1, "left".to_owned()),
+        method: Method::Pointwise,
+        multipliers: Multipliers::Auto,
+        rotations: false,
+    };
+    let solve = |parts: Vec<Part>| {
+        let ties = (0..parts.len() - 1).map(tie).collect();
+        let mut model = Model { space: Space::Plane, parts, ties, supports: Vec::new(), loads: Vec::new() };
+        prescribe(&mut model, |x| x.x < 1e-9, |_| Vec3::zeros());
+        let last = model.parts.len() - 1;
+        let tip = model.parts[last].positions().len() - 1;
+        model.loads.push(PointValue { part: last, point: tip, component: 1, value: 1.0 });
+        let solution = statics::solve(&model).unwrap();
+        (solution.displacement(&model, last, tip).y, solution.energy)
+    };
+    let (tied, tied_energy) =
+        solve(vec![body("a", 0.0, 1.0, 4), body("b", 1.0, 2.0, 4), body("c", 2.0, 3.0, 4)]);
+    let (one, energy) = solve(vec![body("whole", 0.0, 3.0, 12)]);
+    // Refined to a backward error of 1e-16; the beam's condition number is about 1e4.
+    assert!((tied / one - 1.0).abs() < 1e-11, "{tied} {one}");
+    assert!((tied_energy / energy - 1.0).abs() < 1e-11);
+}
+
+#[test]
+fn reactions_balance_the_load() {
+    let model = held();
+    let solution = statics::solve(&model).unwrap();
+    assert!(solution.residual < 1e-13, "{}", solution.residual);
+    let mut sum = Vec3::zeros();
+    for support in &model.supports {
+        let i = solution.numbering.unknown(support.part, support.point, support.component);
+        sum[support.component] += solution.reactions[i];
+    }
+    // Reactions are differences of forces a hundred times larger, at rounding.
+    assert!((sum - Vec3::new(0.0, 10.0, 0.0)).amax() < 1e-9, "{sum}");
+}
+
+#[test]
+fn a_tie_made_twice_changes_nothing_and_is_named() {
+    let once = statics::solve(&held()).unwrap();
+    let mut model = held();
+    model.ties.push(Tie { name: "again".to_owned(), ..model.ties[0].clone() });
+    let twice = statics::solve(&model).unwrap();
+    assert_eq!(twice.notes.len(), 2 * 5, "{:?}", twice.notes);
+    assert!(twice.notes.iter().all(|n| n.starts_with("dropped tie 'again': particle")), "{:?}", twice.notes);
+    let scale = once.u.iter().fold(0.0f64, |m, v| m.max(v.abs()));
+    let change = once.u.iter().zip(&twice.u).fold(0.0f64, |m, (a, b)| m.max((a - b).abs()));
+    assert!(change < 1e-12 * scale);
+}
+
+#[test]
+fn a_support_against_a_tie_is_refused() {
+    let mut model = held();
+    // A tied particle and the node it sits on are held apart.
+    let corner = |part: usize| {
+        let tied = |x: &Vec3| (x - Vec3::new(1.0, 0.0, 0.0)).norm() < 1e-9;
+        model.parts[part].positions().iter().position(tied).unwrap()
+    };
+    let (node, particle) = (corner(0), corner(1));
+    model.supports.push(PointValue { part: 0, point: node, component: 1, value: 1e-3 });
+    model.supports.push(PointValue { part: 1, point: particle, component: 1, value: 2e-3 });
+    let error = statics::solve(&model).unwrap_err();
+    assert!(matches!(error, Error::Contradiction { .. }), "{error}");
+    assert!(error.to_string().contains("u_y"), "{error}");
+}
+
+#[test]
+fn mechanisms_are_named() {
+    let mut model = held();
+    model.supports.clear();
+    let error = statics::solve(&model).unwrap_err().to_string();
+    assert!(error.contains("mechanism") && error.contains("body 'left' is free to"), "{error}");
+
+    // Held along y at both ends: it still slides along x.
+    let mut model = held();
+    prescribe(&mut model, |x| x.x > 3.0 - 1e-9, |_| Vec3::zeros());
+    model.supports.retain(|s| s.component == 1);
+    let error = statics::solve(&model).unwrap_err().to_string();
+    assert!(error.contains("move along x") && !error.contains("along y"), "{error}");
+
+    let mut model = held();
+    model.ties.pop();
+    let error = statics::solve(&model).unwrap_err().to_string();
+    assert!(error.contains("'right'") && !error.contains("'left'"), "{error}");
+}
+
+#[test]
+fn disconnected_particles_are_named() {
+    let mut model = held();
+    let Part::Discrete { network, .. } = &mut model.parts[1] else { unreachable!("the middle is discrete") };
+    let lonely = 12;
+    for (ends, weight) in network.bonds.ends.iter().zip(&mut network.bonds.weight) {
+        if ends.contains(&lonely) {
+            *weight = 0.0;
+        }
+    }
+    let error = statics::solve(&model).unwrap_err();
+    assert_eq!(error, Error::Disconnected { body: "middle".to_owned(), count: 1, first: vec![lonely] });
+}
+
+#[test]
+fn bad_models_are_refused_with_the_place() {
+    let refused = |change: &dyn Fn(&mut Model), words: &[&str]| {
+        let mut model = held();
+        change(&mut model);
+        let error = statics::solve(&model).unwrap_err().to_string();
+        words.iter().for_each(|w| assert!(error.contains(w), "'{w}' is missing in: {error}"));
+    };
+    refused(&|m| m.parts.clear(), &["no bodies"]);
+    refused(&|m| m.loads[0].value = f64::NAN, &["'right'", "not finite"]);
+    refused(&|m| m.loads[0].point = 1000, &["'right'", "1000"]);
+    refused(&|m| m.ties[0].first.1 = "nowhere".to_owned(), &["no face 'nowhere'", "left", "right"]);
+    refused(&|m| m.ties[1].second.1 = "right".to_owned(), &["tie '1-2'"]);
+    let part = |m: &mut Model| match m.parts.remove(1) {
+        Part::Discrete { name, network } => (name, network),
+        Part::Continuum(_) => unreachable!("the middle is discrete"),
+    };
+    refused(
+        &|m| {
+            let (name, mut network) = part(m);
+            network.particles.position.iter_mut().for_each(|x| x.x -= 0.3);
+            m.parts.insert(1, Part::Discrete { name, network });
+        },
+        &["overlap", "'left'", "'middle'"],
+    );
+    refused(
+        &|m| {
+            let (name, mut network) = part(m);
+            network.bonds.stiffness[7].kn = f64::NAN;
+            m.parts.insert(1, Part::Discrete { name, network });
+        },
+        &["bond 7", "finite"],
+    );
+    refused(
+        &|m| {
+            let (name, mut network) = part(m);
+            network.faces.insert("left".to_owned(), Vec::new());
+            m.parts.insert(1, Part::Discrete { name, network });
+        },
+        &["empty interface", "no points"],
+    );
+}

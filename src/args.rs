@@ -1,0 +1,134 @@
+//! The words of the command line.
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use std::path::PathBuf;
+
+/// Verification and validation benchmarks for coupled finite-element and discrete-element solvers.
+///
+/// Without a verb: run the quick catalogue, check it, write the report and print the table.
+#[derive(Debug, Parser)]
+#[command(name = "seam", version, after_help = EXIT_CODES, args_conflicts_with_subcommands = true)]
+pub struct Command {
+    /// What to do; `validate` if left out.
+    #[command(subcommand)]
+    pub verb: Option<Verb>,
+    /// Options of `validate`.
+    #[command(flatten)]
+    pub validate: Validate,
+}
+
+const EXIT_CODES: &str = "Exit codes:
+  0  everything passed
+  1  accuracy, an own claim, a recorded verdict, stability or trust failed
+  2  usage or bad input
+  3  cost regression
+  4  could not measure (no cases, NaN, a missing or altered reference)
+  5  an own claim is undetermined (with --strict)";
+
+/// One verb each.
+#[derive(Debug, Subcommand)]
+pub enum Verb {
+    /// Run the quick tier, check it, write the report, print the table
+    Validate(Validate),
+    /// List the cases
+    List(List),
+    /// Show a case: its page, parameters, claims and scene file
+    Show(Show),
+    /// Run cases of the catalogue or scene files
+    Run(Run),
+    /// Judge the results of a run: table, results.json, exit code
+    Check(Check),
+    /// Write the report page from the results of a run
+    Report(Report),
+}
+
+/// `seam validate`
+#[derive(Debug, Args)]
+pub struct Validate {
+    /// Folder for results and report
+    #[arg(long, value_name = "DIR", default_value = "out")]
+    pub out: PathBuf,
+    /// How the cases are run
+    #[command(flatten)]
+    pub running: Running,
+    /// Treat an undetermined own claim as a failure (exit code 5)
+    #[arg(long)]
+    pub strict: bool,
+}
+
+/// Options of everything that runs cases.
+#[derive(Debug, Args)]
+pub struct Running {
+    /// How much is run
+    #[arg(long, value_enum, default_value_t = Tier::Quick)]
+    pub tier: Tier,
+    /// Threads; all cores if not given
+    #[arg(long, value_name = "N")]
+    pub jobs: Option<usize>,
+    /// Keep results that are there already and go on
+    #[arg(long)]
+    pub resume: bool,
+    /// Print results and failures only
+    #[arg(long, short)]
+    pub quiet: bool,
+}
+
+/// How much is run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Tier {
+    /// Under a minute for the whole catalogue
+    Quick,
+    /// Everything, whole families included
+    Full,
+}
+
+/// `seam list`
+#[derive(Debug, Args)]
+pub struct List {
+    /// As JSON: id, title, tags, tiers, effects, claims, threads, mem_mb, minutes
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// `seam show`
+#[derive(Debug, Args)]
+pub struct Show {
+    /// Id of the case
+    pub id: String,
+}
+
+/// `seam run`
+#[derive(Debug, Args)]
+pub struct Run {
+    /// Ids of the catalogue or paths of scene files; the whole tier if none is given
+    #[arg(value_name = "ID|SCENE.toml")]
+    pub cases: Vec<String>,
+    /// Set a key of the scene, e.g. --set bodies.middle.de.rows=16
+    #[arg(long = "set", value_name = "KEY.PATH=VALUE")]
+    pub overrides: Vec<String>,
+    /// Folder for results
+    #[arg(long, value_name = "DIR", default_value = "out")]
+    pub out: PathBuf,
+    /// How the cases are run
+    #[command(flatten)]
+    pub running: Running,
+}
+
+/// `seam check`
+#[derive(Debug, Args)]
+pub struct Check {
+    /// Folder with the results of a run
+    #[arg(long, value_name = "DIR", default_value = "out")]
+    pub from: PathBuf,
+    /// Treat an undetermined own claim as a failure (exit code 5)
+    #[arg(long)]
+    pub strict: bool,
+}
+
+/// `seam report`
+#[derive(Debug, Args)]
+pub struct Report {
+    /// Folder with the results of a run
+    #[arg(long, value_name = "DIR", default_value = "out")]
+    pub from: PathBuf,
+}

@@ -1,0 +1,57 @@
+//! What a user sees while cases run: a bar on a terminal, plain lines in a pipe, nothing when quiet.
+
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use std::io::IsTerminal;
+
+/// Shows how far a run has come.
+pub enum Progress {
+    /// A bar that redraws itself.
+    Bar(ProgressBar),
+    /// One line per case.
+    Lines,
+    /// Nothing.
+    Quiet,
+}
+
+impl Progress {
+    /// The kind that fits standard error.
+    pub fn new(cases: usize, quiet: bool) -> Self {
+        if quiet {
+            return Progress::Quiet;
+        }
+        if !std::io::stderr().is_terminal() {
+            return Progress::Lines;
+        }
+        let bar = ProgressBar::with_draw_target(Some(cases as u64), ProgressDrawTarget::stderr());
+        let style = ProgressStyle::with_template("{bar:24} {pos}/{len} {elapsed} {wide_msg}");
+        bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
+        bar.enable_steady_tick(std::time::Duration::from_millis(200));
+        Progress::Bar(bar)
+    }
+
+    /// A case begins.
+    pub fn begin(&self, id: &str) {
+        if let Progress::Bar(bar) = self {
+            bar.set_message(id.to_owned());
+        }
+    }
+
+    /// A case is done.
+    pub fn done(&self, id: &str, how: &str) {
+        match self {
+            Progress::Bar(bar) => {
+                bar.inc(1);
+                bar.set_message(format!("{id}: {how}"));
+            }
+            Progress::Lines => eprintln!("{id}: {how}"),
+            Progress::Quiet => {}
+        }
+    }
+
+    /// All are done.
+    pub fn finish(&self) {
+        if let Progress::Bar(bar) = self {
+            bar.finish_and_clear();
+        }
+    }
+}
