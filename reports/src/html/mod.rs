@@ -1,5 +1,6 @@
 //! The report: one self-contained page, claims first.
 
+mod claim;
 mod prose;
 mod view;
 
