@@ -29,16 +29,23 @@ pub fn within(value: f64, [lo, hi]: [f64; 2]) -> bool {
     lo <= value && value <= hi
 }
 
-/// Share of the accepted half width that is left: 1 in the middle of the interval, 0 at its ends,
-/// negative outside. `None` if an end is not finite or the interval has no width.
-pub fn headroom(value: f64, [lo, hi]: [f64; 2]) -> Option<f64> {
-    let half = 0.5 * (hi - lo);
-    (half.is_finite() && half > 0.0).then(|| 1.0 - (value - 0.5 * (lo + hi)).abs() / half)
+/// Share of the way from the best value to the end of the accepted interval that is left: 1 at
+/// the best value, 0 at the end, negative outside.
+///
+/// The best value is the reference; without one in the interval, zero if the interval starts there (the value
+/// is then an error itself), else its middle. `None` if that end is not finite or has no distance.
+pub fn headroom(value: f64, [lo, hi]: [f64; 2], reference: Option<f64>) -> Option<f64> {
+    let without = if lo == 0.0 { 0.0 } else { 0.5 * (lo + hi) };
+    let best = reference.filter(|r| within(*r, [lo, hi])).unwrap_or(without);
+    let room = if value > best { hi - best } else { best - lo };
+    let used = (value - best).abs();
+    (room.is_finite() && (room > 0.0 || used > 0.0)).then(|| 1.0 - used / room).filter(|h| h.is_finite())
 }
 
-/// Signed error of a value: relative to `|ref|`, or absolute where the reference is zero.
+/// Signed error `(a − ref)/ref`, positive where the value is the larger one in magnitude; absolute where the
+/// reference is zero.
 pub fn signed_error(value: f64, reference: f64) -> f64 {
-    if reference == 0.0 { value } else { (value - reference) / reference.abs() }
+    if reference == 0.0 { value } else { (value - reference) / reference }
 }
 
 /// Coverage of the reference's stations below which a comparison of curves has failed.
@@ -66,7 +73,9 @@ pub enum CurveError {
         points: usize,
     },
     /// NaN, infinity, or stations that do not ascend.
-    #[error("{which}: point {index} is not finite, or its x does not ascend; sort the stations and remove it")]
+    #[error(
+        "{which}: point {index} is not finite, or its x does not ascend; sort the stations and remove it"
+    )]
     BadPoint {
         /// Which curve.
         which: &'static str,
@@ -134,8 +143,11 @@ fn check_curve(which: &'static str, (x, y): (&[f64], &[f64])) -> Result<(), Curv
     if x.len() < 2 {
         return Err(CurveError::TooShort { which, points: x.len() });
     }
-    let bad = (0..x.len())
-        .find(|&i| !x[i].is_finite() || !y[i].is_finite() || (i > 0 && x[i].partial_cmp(&x[i - 1]) != Some(std::cmp::Ordering::Greater)));
+    let bad = (0..x.len()).find(|&i| {
+        !x[i].is_finite()
+            || !y[i].is_finite()
+            || (i > 0 && x[i].partial_cmp(&x[i - 1]) != Some(std::cmp::Ordering::Greater))
+    });
     bad.map_or(Ok(()), |index| Err(CurveError::BadPoint { which, index }))
 }
 
@@ -182,11 +194,14 @@ mod tests {
     }
 
     #[test]
-    fn headroom_is_one_in_the_middle_and_negative_outside() {
-        assert_eq!(headroom(1.0, [0.0, 2.0]), Some(1.0));
-        assert_eq!(headroom(0.0, [0.0, 2.0]), Some(0.0));
-        assert_eq!(headroom(3.0, [0.0, 2.0]), Some(-1.0));
-        assert_eq!(headroom(1.0, [0.0, f64::INFINITY]), None);
+    fn headroom_is_one_at_the_best_value_and_negative_outside() {
+        assert_eq!(headroom(1.0, [0.0, 4.0], Some(1.0)), Some(1.0));
+        assert_eq!(headroom(2.5, [0.0, 4.0], Some(1.0)), Some(0.5));
+        assert_eq!(headroom(0.5, [0.0, 4.0], Some(1.0)), Some(0.5));
+        assert_eq!(headroom(-1.0, [0.0, 4.0], Some(1.0)), Some(-1.0));
+        assert_eq!(headroom(4.0, [2.0, 4.0], None), Some(0.0));
+        assert_eq!(headroom(1.0, [0.0, 4.0], None), Some(0.75), "an error is best at zero");
+        assert_eq!(headroom(1.0, [0.0, f64::INFINITY], None), None);
     }
 
     #[test]

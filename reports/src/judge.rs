@@ -19,7 +19,7 @@ pub fn judge(cases: &[CaseResult], provenance: Provenance, recorded: &Recorded) 
 }
 
 fn judge_case(case: &CaseResult, recorded: &Recorded) -> CaseJudgement {
-    let orders = case.convergence.iter().map(order_of);
+    let orders = case.convergence.iter().filter_map(order_of);
     let observed = case.quantities.iter().cloned().chain(orders);
     CaseJudgement {
         id: case.id.clone(),
@@ -49,7 +49,7 @@ fn judge_quantity(o: Observation, last: Option<f64>) -> QuantityResult {
     };
     QuantityResult {
         error: o.reference.map(|r| signed_error(o.value, r)).and_then(finite),
-        headroom: o.accepted.and_then(|a| headroom(o.value, a)).and_then(finite),
+        headroom: o.accepted.and_then(|a| headroom(o.value, a, o.reference)),
         regression: last.map(|l| signed_error(o.value, l)).and_then(finite),
         verdict,
         id: o.id,
@@ -70,12 +70,13 @@ fn finite(v: f64) -> Option<f64> {
     v.is_finite().then_some(v)
 }
 
-/// The observed order of a refinement study as a quantity beside the others. A study that gives no order
-/// has the value NaN, and so is not measured.
-fn order_of(study: &Convergence) -> Observation {
-    let order = fitted_order(&study.h, &study.error).map_or(f64::NAN, |fit| fit.order);
+/// The observed order of a refinement study as a quantity beside the others. Where an order was promised and
+/// the study gives none, the value is NaN: not measured.
+fn order_of(study: &Convergence) -> Option<Observation> {
+    let fit = fitted_order(&study.h, &study.error).map(|fit| fit.order);
+    let order = fit.or(study.tolerance.map(|_| f64::NAN))?;
     let accepted = |absolute| Tolerance { relative: 0.0, absolute }.interval(study.formal_order);
-    Observation {
+    Some(Observation {
         id: format!("order-{}", study.id),
         label: format!("observed order: {}", study.label),
         unit: "1".to_owned(),
@@ -86,7 +87,7 @@ fn order_of(study: &Convergence) -> Observation {
         accepted: study.tolerance.map(accepted),
         why: format!("least-squares fit over {} levels", study.h.len()),
         ..Observation::default()
-    }
+    })
 }
 
 /// The model's curves against the first reference of their plot, where the plot declares a tolerance band.
@@ -99,11 +100,11 @@ fn judge_curves(plot: &Plot) -> Vec<CurveResult> {
 
 fn judge_curve(plot: &Plot, model: &Series, reference: &Series) -> CurveResult {
     // Floor 0: a declared floor is the scene's matter, and bands are drawn around |r| > 0 only.
-    let (comparison, failure) =
-        match compare_curves((&model.x, &model.y), (&reference.x, &reference.y), 0.0) {
-            Ok(c) => (Some(c), String::new()),
-            Err(e) => (None, e.to_string()),
-        };
+    let (comparison, failure) = match compare_curves((&model.x, &model.y), (&reference.x, &reference.y), 0.0)
+    {
+        Ok(c) => (Some(c), String::new()),
+        Err(e) => (None, e.to_string()),
+    };
     let coverage = comparison.as_ref().map_or(0.0, |c| c.coverage);
     let (verdict, why) = match &comparison {
         None => (Verdict::Undetermined, failure),
@@ -131,10 +132,8 @@ fn too_short(c: &CurveComparison) -> String {
 }
 
 fn judge_claim(case: &CaseResult, family: &Family, recorded: &Recorded) -> ClaimResult {
-    let paper = family
-        .no_more_particles_than
-        .as_ref()
-        .and_then(|id| case.families.iter().find(|f| f.claim == *id));
+    let paper =
+        family.no_more_particles_than.as_ref().and_then(|id| case.families.iter().find(|f| f.claim == *id));
     let judged = claims::judge(family, paper);
     let seeds: BTreeSet<u64> = family.members.iter().filter_map(|m| m.seed).collect();
     let hash = record::family_hash(family);

@@ -6,11 +6,15 @@
 
 pub mod claims;
 pub mod compare;
+pub mod csv;
 pub mod exit;
+pub mod failure;
 pub mod format;
 pub mod judge;
+pub mod markdown;
 pub mod record;
 pub mod results;
 pub mod schema;
 pub mod statistics;
+pub mod terminal;
 pub mod verdict;

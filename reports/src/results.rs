@@ -106,7 +106,8 @@ pub struct QuantityResult {
     pub kind: ReferenceKind,
     /// Where the reference comes from.
     pub source: String,
-    /// Signed error as a fraction of `|reference|`; in the unit of the quantity where the reference is zero.
+    /// Signed error as a fraction of the reference, positive where the value is the larger one in magnitude; in
+    /// the unit of the quantity where the reference is zero.
     pub error: Option<f64>,
     /// Standard numerical uncertainty of the value, in its unit.
     pub u_num: Option<f64>,

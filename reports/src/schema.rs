@@ -20,6 +20,9 @@ mod tests {
             std::fs::write(published, results_schema()).unwrap();
         }
         let text = std::fs::read_to_string(published).unwrap_or_default();
-        assert!(text == results_schema(), "results.schema.json is stale: set SEAM_BLESS=1 and run this test again");
+        assert!(
+            text == results_schema(),
+            "results.schema.json is stale: set SEAM_BLESS=1 and run this test again"
+        );
     }
 }

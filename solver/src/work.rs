@@ -26,7 +26,7 @@ impl Work {
     /// One number for work–precision diagrams: element and bond updates, and factor
     /// non-zeros touched once by the factorisation and twice by each solve, all counted alike.
     pub fn total(&self) -> u64 {
-        let per_factor = if self.factorisations > 0 { self.factor_nonzeros / self.factorisations } else { 0 };
+        let per_factor = self.factor_nonzeros.checked_div(self.factorisations).unwrap_or(0);
         self.bond_updates
             + self.element_updates
             + self.factor_nonzeros

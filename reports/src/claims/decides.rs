@@ -131,7 +131,8 @@ pub fn sentence(effects: &[AxisEffect], bound: f64) -> Option<String> {
     }
     let strongest = effects.iter().max_by(|a, b| a.ratio.total_cmp(&b.ratio)).filter(|e| e.ratio > 1.0)?;
     let by_error = |a: &&AxisValue, b: &&AxisValue| a.error.total_cmp(&b.error);
-    let (best, worst) = (strongest.values.iter().min_by(by_error)?, strongest.values.iter().max_by(by_error)?);
+    let (best, worst) =
+        (strongest.values.iter().min_by(by_error)?, strongest.values.iter().max_by(by_error)?);
     let name = words(&strongest.axis);
     Some(format!(
         "{name} moves the error most: {} on average with {}, {} with {}",
@@ -199,10 +200,7 @@ mod tests {
         assert_eq!(ranked[0].axis, "skin");
         assert_eq!((ranked[0].moves, ranked[1].moves), (1.0, 0.0));
         let text = sentence(&ranked, 0.07).unwrap();
-        assert_eq!(
-            text,
-            "skin decides: with weighted skin 100 % of settings meet 7 %, with full skin 0 %"
-        );
+        assert_eq!(text, "skin decides: with weighted skin 100 % of settings meet 7 %, with full skin 0 %");
     }
 
     #[test]

@@ -18,10 +18,10 @@ pub fn of(family: &Family, settings: &[Setting<'_>], limit: Option<Needed>, j: &
     if j.verdict == ClaimVerdict::Undetermined {
         sentences.push(what_would_decide(family, settings, j.most_particles));
     }
-    sentences.extend(decides::sentence(&j.decides, family.bound).map(|s| format!("{}.", capital(&s))));
     if let (Some(limit), Some(claim)) = (limit, &family.no_more_particles_than) {
         sentences.push(same_cost(settings, limit, claim));
     }
+    sentences.extend(decides::sentence(&j.decides, family.bound).map(|s| format!("{}.", capital(&s))));
     if let Some(needed) = j.needed.filter(|_| !family.own) {
         let bound = format::percent(family.bound);
         sentences.push(format!("The paper-like setting needs {} for {bound}.", needed.words()));
@@ -42,7 +42,12 @@ fn outcome(family: &Family, j: &Judgement) -> String {
     };
     match j.verdict {
         ClaimVerdict::Supported => {
-            format!("All of {settings} meet {bound}{readings}; the largest error is {}.", worst(j))
+            let who = if j.settings == 1 {
+                "The only setting meets".to_owned()
+            } else {
+                format!("All {settings} meet")
+            };
+            format!("{who} {bound}{readings}; the largest error is {}.", worst(j))
         }
         ClaimVerdict::Contradicted => {
             format!("None of {settings} meets {bound}{readings}; the smallest error is {}.", best(j))
@@ -84,7 +89,9 @@ fn worst(j: &Judgement) -> String {
 }
 
 fn best(j: &Judgement) -> String {
-    format::percent(j.readings.iter().filter_map(|r| r.errors).map(|[lo, _]| lo).fold(f64::INFINITY, f64::min))
+    format::percent(
+        j.readings.iter().filter_map(|r| r.errors).map(|[lo, _]| lo).fold(f64::INFINITY, f64::min),
+    )
 }
 
 /// How many more seeds would decide, or by how much the uncertainty would have to fall.
@@ -105,7 +112,10 @@ fn what_would_decide(family: &Family, settings: &[Setting<'_>], most_particles: 
     match (seeds, uncertainty) {
         (Some(n), _) => format!("{n} seeds per packing would decide more of them."),
         (None, Some(u)) => {
-            format!("More levels that bring the standard uncertainty below {} would decide.", format::percent(u))
+            format!(
+                "More levels that bring the standard uncertainty below {} would decide.",
+                format::percent(u)
+            )
         }
         (None, None) => "Scatter, not the number of seeds, leaves them open.".to_owned(),
     }

@@ -102,7 +102,8 @@ impl Setting<'_> {
         let gap = (now.mean - bound).abs();
         // A thousand packings is more than anyone would run: beyond it scatter, not their number, decides.
         let enough = |&n: &usize| {
-            Ensemble { count: n, ..now }.next_half_width(PROBABILITY).hypot(NORMAL_95 * self.uncertainty()) < gap
+            Ensemble { count: n, ..now }.next_half_width(PROBABILITY).hypot(NORMAL_95 * self.uncertainty())
+                < gap
         };
         (random && now.count > 1).then(|| (now.count + 1..=1000).find(enough)).flatten()
     }

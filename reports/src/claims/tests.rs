@@ -31,7 +31,8 @@ fn family(members: Vec<Member>, bound: f64) -> Family {
 }
 
 fn verdict_of(errors: &[[f64; 2]]) -> ClaimVerdict {
-    let members = errors.iter().enumerate().map(|(i, [a, b])| member("full", 100 + i, &[("a", *a), ("b", *b)]));
+    let members =
+        errors.iter().enumerate().map(|(i, [a, b])| member("full", 100 + i, &[("a", *a), ("b", *b)]));
     judge(&family(members.collect(), 0.07), None).verdict
 }
 

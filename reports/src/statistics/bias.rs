@@ -75,7 +75,13 @@ mod tests {
 
     #[test]
     fn uncertain_references_take_their_share_of_the_scatter() {
-        let of = |u| bias(&[(0.1f64).exp(), (-0.1f64).exp()].map(|m| Pair { model: m, reference: 1.0, uncertainty: u }));
+        let of = |u| {
+            bias(&[(0.1f64).exp(), (-0.1f64).exp()].map(|m| Pair {
+                model: m,
+                reference: 1.0,
+                uncertainty: u,
+            }))
+        };
         assert!((of(0.1).unwrap().sigma - 0.1).abs() < 1e-12);
         assert_eq!(of(0.5).unwrap().sigma, 0.0);
     }

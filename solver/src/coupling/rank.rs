@@ -8,7 +8,10 @@ use super::Row;
 use crate::error::{Error, Result};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// A row relative to its largest coefficient counts as zero below this.
+/// Rows are taken in rounds: first those of which at least a tenth is new, relative to their largest
+/// coefficient, then weaker ones. Taking them as they come could keep a set that is nearly dependent.
+const ROUNDS: [f64; 5] = [1e-1, 1e-2, 1e-4, 1e-7, VANISHED];
+/// What is left of a row below this is rounding.
 const VANISHED: f64 = 1e-10;
 
 /// The rows that are independent, and why the others were dropped.
@@ -41,41 +44,40 @@ pub fn independent(rows: &[Row], rhs: &[f64], scale: f64) -> Result<Independent>
         row.terms.iter().for_each(|t| *touches.entry(t.0).or_default() += 1);
     }
     let mut by_pivot: BTreeMap<usize, Reduced> = BTreeMap::new();
-    let mut result = Independent { kept: Vec::new(), notes: Vec::new() };
-    for (index, row) in rows.iter().enumerate() {
-        let largest = row.terms.iter().fold(0.0f64, |m, t| m.max(t.1.abs()));
-        let mut reduced = Reduced {
-            place: index,
-            pivot: 0,
-            terms: row.terms.iter().copied().collect(),
-            rhs: rhs[index],
-            from: BTreeSet::from([index]),
-        };
-        reduce(&mut reduced, &by_pivot, VANISHED * largest);
-        match choose_pivot(&reduced.terms, &touches) {
-            Some(pivot) => {
-                result.kept.push(index);
-                reduced.pivot = pivot;
-                by_pivot.insert(pivot, reduced);
-            }
-            None => {
-                let others: Vec<&str> = reduced
-                    .from
-                    .iter()
-                    .filter(|i| **i != index)
-                    .take(4)
-                    .map(|&i| rows[i].label.as_str())
-                    .collect();
-                let others =
-                    if others.is_empty() { "the supports alone".to_owned() } else { others.join("; ") };
-                if reduced.rhs.abs() > VANISHED * scale {
-                    return Err(Error::Contradiction { row: row.label.clone(), gap: reduced.rhs, others });
+    let mut kept = Vec::new();
+    let mut waiting: Vec<usize> = (0..rows.len()).collect();
+    let mut left = Vec::new();
+    for share in ROUNDS {
+        left.clear();
+        for &index in &waiting {
+            let terms = &rows[index].terms;
+            let largest = terms.iter().fold(0.0f64, |m, t| m.max(t.1.abs()));
+            let (terms, from) = (terms.iter().copied().collect(), BTreeSet::from([index]));
+            let mut reduced = Reduced { place: kept.len(), pivot: 0, terms, rhs: rhs[index], from };
+            reduce(&mut reduced, &by_pivot, VANISHED * largest);
+            match choose_pivot(&reduced.terms, share * largest, &touches) {
+                Some(pivot) => {
+                    reduced.pivot = pivot;
+                    kept.push(index);
+                    by_pivot.insert(pivot, reduced);
                 }
-                result.notes.push(format!("dropped {}: it follows from {others}", row.label));
+                None => left.push((index, reduced)),
             }
         }
+        waiting = left.iter().map(|(index, _)| *index).collect();
     }
-    Ok(result)
+    kept.sort_unstable();
+    let mut notes = Vec::new();
+    for (index, reduced) in left {
+        let others = reduced.from.iter().filter(|i| **i != index).take(4).map(|&i| rows[i].label.as_str());
+        let others = others.collect::<Vec<_>>().join("; ");
+        let others = if others.is_empty() { "the supports alone".to_owned() } else { others };
+        if reduced.rhs.abs() > VANISHED * scale {
+            return Err(Error::Contradiction { row: rows[index].label.clone(), gap: reduced.rhs, others });
+        }
+        notes.push(format!("dropped {}: it follows from {others}", rows[index].label));
+    }
+    Ok(Independent { kept, notes })
 }
 
 /// Subtracts earlier rows until no pivot of theirs is left.
@@ -101,8 +103,12 @@ fn reduce(row: &mut Reduced, by_pivot: &BTreeMap<usize, Reduced>, zero: f64) {
     row.terms.retain(|_, v| v.abs() > zero);
 }
 
-fn choose_pivot(terms: &BTreeMap<usize, f64>, touches: &BTreeMap<usize, usize>) -> Option<usize> {
+/// The unknown that the fewest rows touch, among those with a large coefficient; `None` if all are below `least`.
+fn choose_pivot(terms: &BTreeMap<usize, f64>, least: f64, touches: &BTreeMap<usize, usize>) -> Option<usize> {
     let largest = terms.values().fold(0.0f64, |m, v| m.max(v.abs()));
+    if largest <= least {
+        return None;
+    }
     let large = terms.iter().filter(|(_, v)| v.abs() >= 0.1 * largest);
     large
         .min_by_key(|(column, _)| (touches.get(column).copied().unwrap_or(0), **column))

@@ -42,7 +42,7 @@ impl Continuum {
                 self.hypothesis, mesh.space
             ));
         }
-        if mesh.cells.is_empty() || mesh.cells.len() % mesh.nodes_per_cell() != 0 {
+        if mesh.cells.is_empty() || !mesh.cells.len().is_multiple_of(mesh.nodes_per_cell()) {
             return bad_mesh(format!(
                 "{} node indices in the cells; give {} for each of at least one cell",
                 mesh.cells.len(),

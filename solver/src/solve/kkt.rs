@@ -4,7 +4,7 @@
 //! to a unit diagonal (so that rotations and displacements, soft and stiff bodies weigh
 //! alike), B to unit rows. Factorised is the quasi-definite
 //!
-//! `[K + γBᵀB + δ, Bᵀ; B, −ε]`, γ = 1, ε = 1e-10, δ = 1e-14 in scaled units,
+//! `[K + γBᵀB + δ, Bᵀ; B, −ε]`, γ = 1, ε = 1e-11, δ = 1e-14 in scaled units,
 //!
 //! (δ lets a mechanism through to where it is named; ε this small keeps refinement quick when rows
 //! are nearly dependent), and refinement runs on the residual of the *true* system with the right-hand side
@@ -17,7 +17,7 @@ use crate::space::{Space, Vec3};
 use crate::work::Work;
 
 const GAMMA: f64 = 1.0;
-const EPSILON: f64 = 1e-10;
+const EPSILON: f64 = 1e-11;
 const DELTA: f64 = 1e-14;
 /// Refinement stops when the residual no longer halves, at the latest after this many steps.
 const MOST_REFINEMENTS: usize = 12;
@@ -118,8 +118,7 @@ impl Kkt {
         let mut x = vec![0.0; n + m];
         let mut best = (f64::INFINITY, x.clone());
         for _ in 0..MOST_REFINEMENTS {
-            let (mut r, size) = self.residual(&x, &f, &g);
-            let now = norm(&r) / size.max(f64::MIN_POSITIVE);
+            let (mut r, now) = self.residual(&x, &f, &g);
             if !now.is_finite() {
                 return Err(Error::Solve {
                     message: "the solution is not finite; look for a mechanism".to_owned(),
@@ -132,11 +131,7 @@ impl Kkt {
             if stalled || now == 0.0 {
                 break;
             }
-            for (k, row) in self.rows.iter().enumerate() {
-                row.iter().for_each(|&(i, b)| r[i] += GAMMA * b * r[n + k]);
-            }
-            self.factor.solve_in_place(&mut r);
-            work.solves += 1;
+            self.correct(&mut r, work);
             x.iter_mut().zip(&r).for_each(|(x, d)| *x += d);
         }
         let (residual, x) = best;
@@ -154,51 +149,86 @@ impl Kkt {
         })
     }
 
-    /// Residual of the true scaled system, and the size of the terms it balances.
+    /// Residual of the true scaled system, and its size relative to the forces and displacements that it
+    /// balances. Multipliers are no yardstick: they are large where rows are nearly dependent.
     fn residual(&self, x: &[f64], f: &[f64], g: &[f64]) -> (Vec<f64>, f64) {
         let n = f.len();
         let mut internal = vec![0.0; n];
         self.stiffness.multiply_add(&x[..n], &mut internal);
-        let mut size = norm(&internal).max(norm(f)).max(norm(g));
+        let force = norm(&internal).max(norm(f));
+        let mut motion = norm(g);
         let mut r: Vec<f64> = f.iter().zip(&internal).map(|(f, k)| f - k).chain(g.iter().copied()).collect();
         for (k, row) in self.rows.iter().enumerate() {
             for &(i, b) in row {
                 r[i] -= b * x[n + k];
                 r[n + k] -= b * x[i];
-                size = size.max((b * x[n + k]).abs()).max((b * x[i]).abs());
+                motion = motion.max((b * x[i]).abs());
             }
         }
-        // A balanced state of zero load has nothing to be relative to.
-        if size == 0.0 {
-            size = 1.0;
-        }
+        // A state of rest has nothing to be relative to.
+        let relative = |part: &[f64], size: f64| if size > 0.0 { norm(part) / size } else { norm(part) };
+        let size = relative(&r[..n], force).max(relative(&r[n..], motion));
         (r, size)
     }
 
-    /// The softest motion, by two steps of inverse iteration, and its stiffness relative to a unit diagonal:
-    /// at the rounding floor it is a mechanism.
+    /// Applies the factor to a residual: `[r_u + γBᵀr_λ; r_λ]` on the right-hand side.
+    fn correct(&self, r: &mut [f64], work: &mut Work) {
+        let n = self.unknown_scale.len();
+        for (k, row) in self.rows.iter().enumerate() {
+            row.iter().for_each(|&(i, b)| r[i] += GAMMA * b * r[n + k]);
+        }
+        self.factor.solve_in_place(r);
+        work.solves += 1;
+    }
+
+    /// The softest motion and its stiffness relative to a unit diagonal: at the rounding floor it is a mechanism.
+    ///
+    /// Two steps of inverse iteration, then one correction: the factor is only accurate to rounding over ε,
+    /// so that the motion would violate the constraints a little.
     pub fn softest_motion(&self, work: &mut Work) -> (Vec<f64>, f64) {
         let n = self.unknown_scale.len();
+        // Any start that is not orthogonal to the motion will do; irrational steps repeat no pattern.
         let mut z: Vec<f64> =
             (0..n + self.rows.len()).map(|i| (1.0 + i as f64 * 0.754_877_666).sin()).collect();
         for _ in 0..2 {
             z[n..].fill(0.0);
-            let length = z[..n].iter().map(|v| v * v).sum::<f64>().sqrt();
-            z.iter_mut().for_each(|v| *v /= length);
+            normalise(&mut z[..n]);
             self.factor.solve_in_place(&mut z);
             work.solves += 1;
         }
         z.truncate(n);
-        let length = z.iter().map(|v| v * v).sum::<f64>().sqrt();
-        z.iter_mut().for_each(|v| *v /= length);
-        let mut internal = vec![0.0; n];
-        self.stiffness.multiply_add(&z, &mut internal);
-        let strain: f64 = z.iter().zip(&internal).map(|(a, b)| a * b).sum();
-        let gap: f64 =
-            self.rows.iter().map(|row| row.iter().map(|&(i, b)| b * z[i]).sum::<f64>().powi(2)).sum();
+        normalise(&mut z);
+        let (mut r, gap) = self.stiffness_and_gap(&z);
+        let stiffness = dot(&z, &r) + dot(&gap, &gap);
+        r.iter_mut().zip(&z).for_each(|(r, z)| *r -= stiffness * z);
+        r.extend(gap);
+        self.correct(&mut r, work);
+        let along = dot(&z, &r[..n]);
+        let corrected: Vec<f64> = z.iter().zip(&r).map(|(z, r)| z - (r - along * z)).collect();
+        let mut z = corrected;
+        normalise(&mut z);
+        let (r, gap) = self.stiffness_and_gap(&z);
+        let corrected = dot(&z, &r).abs() + dot(&gap, &gap);
         let motion = z.iter().zip(&self.unknown_scale).map(|(x, s)| x * s).collect();
-        (motion, strain.abs() + gap)
+        (motion, corrected.min(stiffness.abs()))
     }
+
+    /// `K z` and `B z`, scaled.
+    fn stiffness_and_gap(&self, z: &[f64]) -> (Vec<f64>, Vec<f64>) {
+        let mut internal = vec![0.0; z.len()];
+        self.stiffness.multiply_add(z, &mut internal);
+        let gap = self.rows.iter().map(|row| row.iter().map(|&(i, b)| b * z[i]).sum()).collect();
+        (internal, gap)
+    }
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+fn normalise(z: &mut [f64]) {
+    let length = dot(z, z).sqrt();
+    z.iter_mut().for_each(|v| *v /= length);
 }
 
 fn factorise(matrix: &SymmetricMatrix, layout: &Layout) -> Result<Factor> {

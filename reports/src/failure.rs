@@ -1,0 +1,146 @@
+//! Failures in words, the same for every view.
+
+use crate::format::{self, percent, share, with_unit};
+use crate::record::RecordState;
+use crate::results::{CaseJudgement, ClaimResult, CurveResult, QuantityResult, Results};
+use crate::verdict::{ClaimVerdict, Verdict};
+
+/// One thing that keeps the gate from being green.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Failure {
+    /// `FAILED`, `NOT MEASURED` or `COSTS MORE`.
+    pub class: &'static str,
+    /// Case, and the quantity, curve or claim within it.
+    pub place: String,
+    /// What was measured.
+    pub measured: String,
+    /// What was allowed, and why.
+    pub bound: String,
+    /// What it means.
+    pub meaning: String,
+    /// The command that runs just this case again.
+    pub rerun: String,
+}
+
+const FAILED: &str = "FAILED";
+const NOT_MEASURED: &str = "NOT MEASURED";
+const COSTS_MORE: &str = "COSTS MORE";
+
+/// Every failure, in the order of the cases.
+pub fn failures(results: &Results) -> Vec<Failure> {
+    results.cases.iter().flat_map(of_case).collect()
+}
+
+fn of_case(case: &CaseJudgement) -> Vec<Failure> {
+    let quantities = case.quantities.iter().filter_map(|q| of_quantity(case, q));
+    let curves = case.curves.iter().filter_map(|c| of_curve(case, c));
+    let claims = case.claims.iter().filter_map(|c| of_claim(case, c));
+    let all: Vec<Failure> = quantities.chain(curves).chain(claims).chain(of_cost(case)).collect();
+    if all.is_empty() && case.unmeasured() {
+        return vec![of_empty(case)];
+    }
+    all
+}
+
+fn failure(case: &CaseJudgement, class: &'static str, item: &str) -> Failure {
+    let place = if item.is_empty() { case.id.clone() } else { format!("{} / {item}", case.id) };
+    let empty = String::new;
+    Failure { class, place, measured: empty(), bound: empty(), meaning: empty(), rerun: case.command.clone() }
+}
+
+fn of_quantity(case: &CaseJudgement, q: &QuantityResult) -> Option<Failure> {
+    let bound = interval(q).map_or("a finite number".to_owned(), |i| format!("{i}: {}", q.why));
+    match (q.verdict, q.value) {
+        (Some(Verdict::Fail), Some(value)) => Some(Failure {
+            measured: format!("{} ({})", with_unit(value, &q.unit), q.label),
+            bound,
+            meaning: outside(q),
+            ..failure(case, FAILED, &q.id)
+        }),
+        (Some(Verdict::Undetermined), _) | (_, None) => Some(Failure {
+            measured: q.value.map_or("no finite number".to_owned(), |v| with_unit(v, &q.unit)),
+            bound,
+            meaning: "value, reference or bound is not a finite number, so nothing was compared".to_owned(),
+            ..failure(case, NOT_MEASURED, &q.id)
+        }),
+        _ => None,
+    }
+}
+
+/// The accepted interval with its unit, e.g. `-0.009078 … -0.008722 m`.
+pub fn interval(q: &QuantityResult) -> Option<String> {
+    let [lo, hi] = q.accepted?;
+    let lo = lo.map_or("−∞".to_owned(), format::value);
+    let hi = hi.map_or("∞".to_owned(), |hi| with_unit(hi, &q.unit));
+    Some(format!("{lo} … {hi}"))
+}
+
+fn outside(q: &QuantityResult) -> String {
+    let by = q.headroom.map_or(String::new(), |h| {
+        format!("{} times the allowed deviation", format::significant(1.0 - h, 3))
+    });
+    let error = match (q.error, q.reference) {
+        (Some(e), Some(r)) if r != 0.0 => {
+            format!(", {} from the {} reference", format::signed_percent(e), crate::terminal::kind_name(q))
+        }
+        _ => String::new(),
+    };
+    if by.is_empty() { "outside the accepted interval".to_owned() + &error } else { by + &error }
+}
+
+fn of_curve(case: &CaseJudgement, c: &CurveResult) -> Option<Failure> {
+    let class = match c.verdict {
+        Verdict::Pass => return None,
+        Verdict::Fail => FAILED,
+        Verdict::Undetermined => NOT_MEASURED,
+    };
+    Some(Failure {
+        measured: format!("curve '{}' covers {}", c.series, share(c.coverage)),
+        bound: format!("{} of the reference's stations", percent(crate::compare::LEAST_COVERAGE)),
+        meaning: c.why.clone(),
+        ..failure(case, class, &c.plot)
+    })
+}
+
+fn of_claim(case: &CaseJudgement, c: &ClaimResult) -> Option<Failure> {
+    let class = match (&c.unmeasured, c.failed()) {
+        (Some(_), _) => NOT_MEASURED,
+        (None, true) => FAILED,
+        (None, false) => return None,
+    };
+    let bound = if c.own {
+        format!("{}, since it is an own claim", ClaimVerdict::Supported)
+    } else {
+        c.recorded
+            .as_ref()
+            .map_or("a verdict".to_owned(), |r| format!("recorded: {}, {}", r.verdict, share(r.share)))
+    };
+    let meaning = match c.record {
+        RecordState::OtherFamily if !c.own => {
+            "the family is not the one the record answers; accept the new verdict only if it was meant to change".to_owned()
+        }
+        _ => c.reason.clone(),
+    };
+    let measured = format!("{}, {} of the settings meet {}", c.verdict, share(c.share), percent(c.bound));
+    Some(Failure { measured, bound, meaning, ..failure(case, class, &c.id) })
+}
+
+fn of_cost(case: &CaseJudgement) -> Option<Failure> {
+    let recorded = case.recorded_work.filter(|_| case.costs_more())?;
+    let now = case.work.total();
+    Some(Failure {
+        measured: format!("{now} units of counted work"),
+        bound: format!("{recorded}, recorded for the same scene"),
+        meaning: format!("{} more work for the same answer", percent(now as f64 / recorded as f64 - 1.0)),
+        ..failure(case, COSTS_MORE, "work")
+    })
+}
+
+fn of_empty(case: &CaseJudgement) -> Failure {
+    Failure {
+        measured: "nothing".to_owned(),
+        bound: "at least one number, curve or claim".to_owned(),
+        meaning: "a case that compares nothing proves nothing".to_owned(),
+        ..failure(case, NOT_MEASURED, "")
+    }
+}

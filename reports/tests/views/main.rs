@@ -1,0 +1,6 @@
+//! The views of judged results, over a beam with a family of settings and a small patch test.
+
+mod files;
+mod fixture;
+mod results;
+mod terminal;
