@@ -34,8 +34,8 @@ pub struct ExpressionError {
 pub type Values = BTreeMap<String, f64>;
 
 /// Names that mean something in every expression and so cannot be parameters.
-pub const RESERVED: [&str; 13] =
-    ["x", "y", "z", "pi", "sqrt", "abs", "min", "max", "sin", "cos", "tan", "exp", "log"];
+pub const RESERVED: [&str; 15] =
+    ["x", "y", "z", "pi", "sqrt", "abs", "min", "max", "sin", "cos", "tan", "exp", "log", "ceil", "round"];
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Function {
@@ -48,6 +48,8 @@ enum Function {
     Tan,
     Exp,
     Log,
+    Ceil,
+    Round,
 }
 
 impl Function {
@@ -62,6 +64,8 @@ impl Function {
             "tan" => Self::Tan,
             "exp" => Self::Exp,
             "log" => Self::Log,
+            "ceil" => Self::Ceil,
+            "round" => Self::Round,
             _ => return None,
         })
     }
@@ -167,6 +171,8 @@ fn apply(step: &Step, values: &Values, stack: &mut Vec<f64>) {
                 Function::Cos => a.cos(),
                 Function::Tan => a.tan(),
                 Function::Exp => a.exp(),
+                Function::Ceil => a.ceil(),
+                Function::Round => a.round(),
                 _ => a.ln(),
             }
         }

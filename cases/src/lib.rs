@@ -2,6 +2,18 @@
 //!
 //! The road: scene file → model → solution → observation → [`result::CaseResult`].
 
+pub mod catalogue;
+pub mod error;
 pub mod expression;
+pub mod file;
+pub mod folder;
+pub mod model;
 pub mod names;
+pub mod observe;
+pub mod overrides;
+pub mod procedures;
 pub mod result;
+pub mod scene;
+pub mod source;
+pub mod study;
+pub mod write;

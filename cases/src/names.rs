@@ -1,8 +1,8 @@
 //! Nearest known name, for "did you mean" hints.
 
-/// Most edits between a name and its suggestion: a third of its length, at least one.
+/// Most edits between a name and its suggestion: a third of its length, rounded up.
 fn tolerance(name: &str) -> usize {
-    (name.chars().count() / 3).max(1)
+    name.chars().count().div_ceil(3).max(1)
 }
 
 /// Number of insertions, deletions and replacements between two words (Levenshtein 1966).

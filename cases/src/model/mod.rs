@@ -1,0 +1,147 @@
+//! From a scene to a [`Model`] of the solver.
+
+pub mod calibration;
+mod conditions;
+mod mesh;
+mod particles;
+mod place;
+
+use crate::error::{Error, Fault, Result};
+use crate::expression::Values;
+use crate::file::SceneFile;
+use crate::scene::body::{Body, Method};
+use crate::scene::number::Number;
+use crate::scene::{Hypothesis, Scene};
+use seam_solver::fem::elasticity::{self, Elasticity};
+use seam_solver::model::{Model, Part};
+use seam_solver::space::{Space, Vec3};
+
+/// A model and what was found out while it was built.
+#[derive(Debug, Clone)]
+pub struct Built {
+    /// The model; its parts are in the alphabetical order of the scene's bodies.
+    pub model: Model,
+    /// Packings, calibrations: what a reader must know.
+    pub notes: Vec<String>,
+}
+
+impl Built {
+    /// Number of particles of all bodies.
+    pub fn particles(&self) -> usize {
+        let count =
+            |part: &Part| if matches!(part, Part::Discrete { .. }) { part.positions().len() } else { 0 };
+        self.model.parts.iter().map(count).sum()
+    }
+}
+
+/// What building can fail with: the scene's fault, or the solver's refusal.
+pub(crate) enum Refusal {
+    Scene(Fault),
+    Solver(seam_solver::error::Error),
+    File(Error),
+}
+
+impl From<Fault> for Refusal {
+    fn from(fault: Fault) -> Self {
+        Self::Scene(fault)
+    }
+}
+
+impl From<seam_solver::error::Error> for Refusal {
+    fn from(error: seam_solver::error::Error) -> Self {
+        Self::Solver(error)
+    }
+}
+
+impl From<Error> for Refusal {
+    fn from(error: Error) -> Self {
+        Self::File(error)
+    }
+}
+
+/// Builds the model of a scene.
+///
+/// # Errors
+/// A fault of the scene that only shows here, or what the solver refuses.
+pub fn build(file: &SceneFile) -> Result<Built> {
+    assemble(file).map_err(|refusal| match refusal {
+        Refusal::Scene(fault) => file.error(fault),
+        Refusal::Solver(error) => file.solver(error),
+        Refusal::File(error) => error,
+    })
+}
+
+fn assemble(file: &SceneFile) -> std::result::Result<Built, Refusal> {
+    let context = Context::new(file)?;
+    let mut notes = Vec::new();
+    let mut parts = Vec::new();
+    for (name, body) in &file.scene.bodies {
+        parts.push(match body.method {
+            Method::Fe => Part::Continuum(mesh::continuum(&context, name, body)?),
+            Method::De => {
+                let network = particles::network(&context, name, body, &mut notes)?;
+                Part::Discrete { name: name.clone(), network }
+            }
+        });
+        check_size(&file.scene, &parts[parts.len() - 1])?;
+    }
+    let ties = conditions::ties(&context)?;
+    let supports = conditions::supports(&context, &parts)?;
+    let loads = conditions::loads(&context, &parts)?;
+    Ok(Built { model: Model { space: context.space, parts, ties, supports, loads }, notes })
+}
+
+fn check_size(scene: &Scene, part: &Part) -> std::result::Result<(), Fault> {
+    let (limit, key) = match part {
+        Part::Continuum(_) => (scene.limits.nodes, "limits.nodes"),
+        Part::Discrete { .. } => (scene.limits.particles, "limits.particles"),
+    };
+    let count = part.positions().len();
+    if count > limit {
+        let message = format!("body '{}' has {count} {}s, the limit is {limit}", part.name(), part.noun());
+        return Err(Fault::new(key, message, "coarsen the body, or raise the limit if the memory is there"));
+    }
+    Ok(())
+}
+
+/// What every builder needs.
+pub(crate) struct Context<'a> {
+    pub file: &'a SceneFile,
+    pub scene: &'a Scene,
+    pub values: &'a Values,
+    pub space: Space,
+    pub hypothesis: elasticity::Hypothesis,
+}
+
+impl<'a> Context<'a> {
+    fn new(file: &'a SceneFile) -> std::result::Result<Self, Fault> {
+        let (scene, values) = (&file.scene, &file.values);
+        let thickness_m = scene.thickness_m.value(values, "thickness_m")?;
+        let hypothesis = match scene.hypothesis {
+            Hypothesis::PlaneStress => elasticity::Hypothesis::PlaneStress { thickness_m },
+            Hypothesis::PlaneStrain => elasticity::Hypothesis::PlaneStrain { thickness_m },
+            Hypothesis::Solid => elasticity::Hypothesis::Solid,
+        };
+        Ok(Self { file, scene, values, space: scene.hypothesis.space(), hypothesis })
+    }
+
+    /// Material of a body.
+    fn elasticity(&self, body: &Body) -> std::result::Result<Elasticity, Fault> {
+        let material = &self.scene.materials[&body.material];
+        let key = |name: &str| format!("materials.{}.{name}", body.material);
+        Ok(Elasticity {
+            young_pa: material.young_pa.value(self.values, &key("young_Pa"))?,
+            poisson: material.poisson.value(self.values, &key("poisson"))?,
+            density: material.density_kg_m3.value(self.values, &key("density_kg_m3"))?,
+        })
+    }
+
+    /// A point or vector; in the plane its third component is zero.
+    pub fn vector(&self, numbers: &[Number], key: &str) -> std::result::Result<Vec3, Fault> {
+        let mut x = Vec3::zeros();
+        for i in 0..self.space.dim().min(numbers.len()) {
+            x[i] = numbers[i].value(self.values, &format!("{key}[{i}]"))?;
+        }
+        Ok(x)
+    }
+}

@@ -1,0 +1,7 @@
+//! Reading values off a solution.
+
+pub mod curve;
+pub mod field;
+pub mod moving_least_squares;
+pub mod probes;
+pub mod section;

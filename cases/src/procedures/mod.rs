@@ -1,0 +1,96 @@
+//! What computes a case: statics of its scene, or a verification that needs no bodies.
+//!
+//! A new procedure is one file and one line of [`REGISTRY`].
+
+mod bond_matrix;
+mod homogenisation;
+mod lattice_constants;
+mod manufactured;
+
+use crate::error::{Error, Fault, Result};
+use crate::file::SceneFile;
+use crate::result::{CaseResult, Observation};
+use crate::scene::Tier;
+use crate::study::{self, Run};
+use std::time::Instant;
+
+/// A verification: fills in the quantities and studies of a result that has its head.
+type Procedure = fn(&Setting, &mut CaseResult) -> Result<()>;
+
+/// Names and procedures that need no bodies.
+const REGISTRY: &[(&str, Procedure)] = &[
+    ("bond-matrix", bond_matrix::run),
+    ("homogenisation", homogenisation::run),
+    ("lattice-constants", lattice_constants::run),
+    ("manufactured", manufactured::run),
+];
+
+/// Names a scene may give as its procedure.
+pub fn names() -> impl Iterator<Item = &'static str> + Clone {
+    std::iter::once("statics").chain(REGISTRY.iter().map(|(name, _)| *name))
+}
+
+/// Runs a case.
+///
+/// # Errors
+/// A fault of the scene, or what the solver refuses.
+pub fn run(file: &SceneFile, tier: Tier) -> Result<Run> {
+    let Some((_, procedure)) = REGISTRY.iter().find(|(name, _)| *name == file.scene.procedure) else {
+        return study::run(file, tier);
+    };
+    let start = Instant::now();
+    let mut result = study::head(file, tier);
+    procedure(&Setting { file, tier }, &mut result)?;
+    result.seconds = start.elapsed().as_secs_f64();
+    Ok(Run { result, fields: None })
+}
+
+/// A scene without bodies: its parameters are the settings of the procedure.
+struct Setting<'a> {
+    file: &'a SceneFile,
+    tier: Tier,
+}
+
+impl Setting<'_> {
+    /// A parameter that the procedure needs.
+    fn number(&self, name: &str) -> Result<f64> {
+        self.file.values.get(name).copied().ok_or_else(|| {
+            let message =
+                format!("the procedure '{}' needs the parameter '{name}'", self.file.scene.procedure);
+            self.file.error(Fault::new("parameters", message, "add it"))
+        })
+    }
+
+    /// A whole number of at least `least`.
+    fn count(&self, name: &str, least: usize) -> Result<usize> {
+        let value = self.number(name)?;
+        if value.fract() != 0.0 || value < least as f64 || value > 1e6 {
+            let message = format!("expected a whole number of at least {least}, found {value}");
+            return Err(self.file.error(Fault::new(format!("parameters.{name}"), message, "change it")));
+        }
+        Ok(value as usize)
+    }
+
+    /// A parameter with one value per tier: `name_quick`, `name_full`.
+    fn count_of_tier(&self, name: &str, least: usize) -> Result<usize> {
+        self.count(&format!("{name}_{}", self.tier.name()), least)
+    }
+
+    fn solver(&self, source: seam_solver::error::Error) -> Error {
+        self.file.solver(source)
+    }
+}
+
+/// A difference that only rounding may cause.
+fn rounding(id: &str, label: &str, value: f64, limit: f64, why: &str, source: &str) -> Observation {
+    Observation {
+        id: id.to_owned(),
+        label: label.to_owned(),
+        unit: "1".to_owned(),
+        value,
+        source: source.to_owned(),
+        accepted: Some([0.0, limit]),
+        why: why.to_owned(),
+        ..Observation::default()
+    }
+}

@@ -1,0 +1,234 @@
+//! Checks of probes, quantities and studies: names that lead nowhere, studies that compare nothing.
+
+use super::Scene;
+use super::check::{Checked, known, vector};
+use super::probe::{Probe, Read};
+use super::quantity::{Accept, Quantity};
+use super::study::{Claim, FamilyDeclaration, Levels, Seeds};
+use crate::error::Fault;
+use crate::expression::Values;
+use crate::overrides::label;
+use seam_solver::space::Space;
+use serde_json::Value;
+
+/// Checks quantities and studies.
+///
+/// # Errors
+/// The first fault, with its key.
+pub fn check(scene: &Scene, values: &Values) -> Checked {
+    for (name, quantity) in &scene.quantities {
+        check_quantity(scene, name, quantity, values)?;
+    }
+    if let Some(reference) = &scene.reference {
+        variants(scene, &reference.variants, "reference.variants")?;
+        levels(&reference.levels, 1, "reference.levels")?;
+    }
+    for (name, study) in &scene.convergence {
+        let key = format!("convergence.{name}");
+        known(&study.quantity, "quantity", scene.quantities.keys(), &format!("{key}.quantity"))?;
+        // Two levels always lie on a line: an order needs three.
+        levels(&study.levels, 3, &format!("{key}.levels"))?;
+    }
+    for (name, family) in &scene.families {
+        check_family(scene, name, family)?;
+    }
+    for (name, claim) in &scene.claims {
+        check_claim(scene, name, claim)?;
+    }
+    for (name, budget) in &scene.budgets {
+        let key = format!("budgets.{name}");
+        known(&budget.quantity, "quantity", scene.quantities.keys(), &format!("{key}.quantity"))?;
+        variants(scene, &budget.of, &format!("{key}.of"))?;
+        for (i, part) in budget.parts.iter().enumerate() {
+            variants(scene, &part.from, &format!("{key}.parts[{i}].from"))?;
+            variants(scene, &part.to, &format!("{key}.parts[{i}].to"))?;
+        }
+    }
+    for (name, cost) in &scene.costs {
+        let key = format!("costs.{name}");
+        known(&cost.quantity, "quantity", scene.quantities.keys(), &format!("{key}.quantity"))?;
+        levels(&cost.levels, 1, &format!("{key}.levels"))?;
+        for (setting, names) in &cost.settings {
+            variants(scene, names, &format!("{key}.settings.{setting}"))?;
+        }
+    }
+    Ok(())
+}
+
+fn variants(scene: &Scene, names: &[String], key: &str) -> Checked {
+    names
+        .iter()
+        .enumerate()
+        .try_for_each(|(i, name)| known(name, "variant", scene.variants.keys(), &format!("{key}[{i}]")))
+}
+
+fn levels(levels: &Levels, least: usize, key: &str) -> Checked {
+    if levels.values.len() < least {
+        let message = format!("expected at least {least} levels, found {}", levels.values.len());
+        return Err(Fault::new(format!("{key}.values"), message, "add levels"));
+    }
+    Ok(())
+}
+
+/// Checks one probe.
+pub fn probe(scene: &Scene, name: &str, probe: &Probe, values: &Values) -> Checked {
+    let key = format!("probes.{name}");
+    let space = scene.hypothesis.space();
+    let places = usize::from(probe.point.is_some()) + usize::from(probe.line.is_some());
+    if probe.read.is_global() != (places == 0) || places > 1 {
+        let mend = if probe.read.is_global() {
+            "remove `point` and `line`"
+        } else {
+            "give either `point` or `line`"
+        };
+        return Err(Fault::new(key, "the probe does not say where, or says it twice", mend));
+    }
+    if probe.read.is_rotation() && probe.line.is_none() {
+        return Err(Fault::new(key, "a rotation is read along a line", "give `line` instead of `point`"));
+    }
+    let points = probe.point.iter().map(|p| (p, "point"));
+    let ends = probe.line.iter().flat_map(|l| [(&l.from, "line.from"), (&l.to, "line.to")]);
+    for (point, part) in points.chain(ends) {
+        vector(point, space, &format!("{key}.{part}"))?;
+        for (i, number) in point.iter().enumerate() {
+            number.value(values, &format!("{key}.{part}[{i}]"))?;
+        }
+    }
+    if probe.line.as_ref().is_some_and(|line| line.intervals == 0) {
+        return Err(Fault::new(
+            format!("{key}.line.intervals"),
+            "a line without stations",
+            "give at least 1",
+        ));
+    }
+    check_exact(probe, space, &key)
+}
+
+fn check_exact(probe: &Probe, space: Space, key: &str) -> Checked {
+    let expected = if probe.read == Read::DisplacementError { space.dim() } else { 1 };
+    let missing = probe.read == Read::DisplacementError && probe.exact.is_empty();
+    if missing || (!probe.exact.is_empty() && probe.exact.len() < expected) {
+        let message = format!("expected {expected} exact components, found {}", probe.exact.len());
+        return Err(Fault::new(format!("{key}.exact"), message, "give one expression per component"));
+    }
+    Ok(())
+}
+
+fn check_quantity(scene: &Scene, name: &str, quantity: &Quantity, values: &Values) -> Checked {
+    let key = format!("quantities.{name}");
+    if scene.procedure != "statics" {
+        return Err(Fault::new(key, "the procedure brings its own quantities", "remove the table"));
+    }
+    known(&quantity.probe, "probe", scene.probes.keys(), &format!("{key}.probe"))?;
+    let curve = scene.probes[&quantity.probe].line.is_some();
+    if curve != quantity.norm.is_some() {
+        let mend = "a curve needs `norm` to become a number, a scalar has none";
+        return Err(Fault::new(format!("{key}.norm"), "the norm does not fit the probe", mend));
+    }
+    let given = quantity.reference.as_ref().is_some_and(|r| r.value.is_some());
+    if scene.reference.is_none() && (curve || (quantity.reference.is_some() && !given)) {
+        let mend = "add a [reference] model, or give reference.value";
+        return Err(Fault::new(key, "there is nothing to compare it with", mend));
+    }
+    if let Some(number) = quantity.reference.as_ref().and_then(|r| r.value.as_ref()) {
+        number.value(values, &format!("{key}.reference.value"))?;
+    }
+    let refined = scene.convergence.values().any(|c| c.quantity == name);
+    if quantity.extrapolated && !refined {
+        let mend = "add a [convergence.NAME] table for it";
+        return Err(Fault::new(format!("{key}.extrapolated"), "no convergence study refines it", mend));
+    }
+    quantity.accept.as_ref().map_or(Ok(()), |accept| check_accept(accept, quantity, values, &key))
+}
+
+fn check_accept(accept: &Accept, quantity: &Quantity, values: &Values, key: &str) -> Checked {
+    let key = format!("{key}.accept");
+    let Accept { relative, absolute, interval, why } = accept;
+    if why.trim().is_empty() {
+        return Err(Fault::new(
+            format!("{key}.why"),
+            "a tolerance needs its reason",
+            "say why it is this wide",
+        ));
+    }
+    if interval.is_some() == (relative.is_some() || absolute.is_some()) {
+        let mend = "give relative, absolute or both, or else interval";
+        return Err(Fault::new(key, "the accepted range is not defined", mend));
+    }
+    if relative.is_some() && quantity.reference.is_none() {
+        let mend = "add a reference, or give `absolute` or `interval`";
+        return Err(Fault::new(format!("{key}.relative"), "it is relative to nothing", mend));
+    }
+    for (number, part) in [(relative, "relative"), (absolute, "absolute")] {
+        if let Some(number) = number
+            && number.value(values, &format!("{key}.{part}"))? < 0.0
+        {
+            return Err(Fault::new(format!("{key}.{part}"), "a tolerance below zero", "make it positive"));
+        }
+    }
+    Ok(())
+}
+
+fn check_family(scene: &Scene, name: &str, family: &FamilyDeclaration) -> Checked {
+    let key = format!("families.{name}");
+    for (axis_name, axis) in &family.axes {
+        let key = format!("{key}.axes.{axis_name}");
+        variants(scene, &axis.variants, &format!("{key}.variants"))?;
+        if axis.key.is_some() != axis.variants.is_empty() || (axis.key.is_some() && axis.values.is_empty()) {
+            return Err(Fault::new(key, "an axis without values", "give `key` and `values`, or `variants`"));
+        }
+        let like = format!("families.{name}.paper_like");
+        let Some(value) = family.paper_like.get(axis_name) else {
+            let message = format!("the paper-like setting has no value of '{axis_name}'");
+            return Err(Fault::new(like, message, "name one value of every axis"));
+        };
+        on_axis(family, axis_name, value, &format!("{like}.{axis_name}"))?;
+    }
+    check_seeds(scene, &family.seeds, &format!("{key}.seeds"))?;
+    for (blocks, tier) in [(&family.full, "full"), (&family.quick, "quick")] {
+        for (i, block) in blocks.iter().enumerate() {
+            for (axis, listed) in block {
+                let key = format!("{key}.{tier}[{i}].{axis}");
+                known(axis, "axis", family.axes.keys(), &key)?;
+                listed.iter().try_for_each(|value| on_axis(family, axis, value, &key))?;
+            }
+        }
+    }
+    Ok(())
+}
+
+fn on_axis(family: &FamilyDeclaration, axis: &str, value: &Value, key: &str) -> Checked {
+    let axis = &family.axes[axis];
+    let labels: Vec<String> = axis.values.iter().map(label).chain(axis.variants.iter().cloned()).collect();
+    known(&label(value), "value", labels.iter(), key)
+}
+
+fn check_seeds(scene: &Scene, seeds: &Seeds, key: &str) -> Checked {
+    known(&seeds.body, "body", scene.bodies.keys(), &format!("{key}.body"))?;
+    for (list, tier) in [(&seeds.full, "full"), (&seeds.quick, "quick")] {
+        if list.is_empty() {
+            return Err(Fault::new(format!("{key}.{tier}"), "no seeds", "give at least one"));
+        }
+    }
+    Ok(())
+}
+
+fn check_claim(scene: &Scene, name: &str, claim: &Claim) -> Checked {
+    let key = format!("claims.{name}");
+    known(&claim.family, "family", scene.families.keys(), &format!("{key}.family"))?;
+    known(&claim.main_reading, "reading", claim.readings.keys(), &format!("{key}.main_reading"))?;
+    if let Some(other) = &claim.no_more_particles_than {
+        known(other, "claim", scene.claims.keys(), &format!("{key}.no_more_particles_than"))?;
+    }
+    for (reading_name, reading) in &claim.readings {
+        let key = format!("{key}.readings.{reading_name}.probe");
+        known(&reading.probe, "probe", scene.probes.keys(), &key)?;
+        if scene.probes[&reading.probe].line.is_none() {
+            return Err(Fault::new(key, "a reading compares curves", "name a probe along a line"));
+        }
+    }
+    if scene.reference.is_none() {
+        return Err(Fault::new(key, "there is nothing to compare with", "add a [reference] model"));
+    }
+    Ok(())
+}

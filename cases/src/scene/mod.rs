@@ -1,0 +1,241 @@
+//! The scene file: a case as a page of text.
+//!
+//! One file per element of the format. A scene is read by [`crate::source::SceneFile`], which knows
+//! where every key stands; the types here know nothing of files.
+
+pub mod body;
+pub mod check;
+mod check_study;
+pub mod connection;
+pub mod de;
+pub mod fe;
+pub mod material;
+pub mod number;
+pub mod parameter;
+pub mod probe;
+pub mod quantity;
+pub mod study;
+
+use crate::error::Fault;
+use crate::expression::Values;
+use schemars::JsonSchema;
+use seam_solver::space::Space;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+/// A scene.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Scene {
+    /// Id, also the name of its folder: lower case, digits, hyphens.
+    pub id: String,
+    /// One line.
+    pub title: String,
+    /// What is shown, for whom (Markdown).
+    #[serde(default)]
+    pub purpose: String,
+    /// Author, year, title, figure or equation.
+    #[serde(default)]
+    pub citation: String,
+    /// Words to filter by.
+    #[serde(default)]
+    pub tags: Vec<String>,
+    /// When it runs.
+    #[serde(default = "both_tiers")]
+    pub tiers: Vec<Tier>,
+    /// What computes it: `statics`, or a verification that needs no bodies.
+    #[serde(default = "statics")]
+    pub procedure: String,
+    /// What a run takes.
+    #[serde(default)]
+    pub needs: Needs,
+    /// Largest model that is run.
+    #[serde(default)]
+    pub limits: Limits,
+    /// Effects to simulate, or `["auto"]`.
+    #[serde(default = "auto")]
+    pub effects: Vec<String>,
+    /// Plane or solid.
+    #[serde(default = "plane_stress")]
+    pub hypothesis: Hypothesis,
+    /// Thickness in the plane, in m.
+    #[serde(default = "unit_thickness")]
+    pub thickness_m: number::Number,
+    /// Named numbers.
+    #[serde(default)]
+    pub parameters: BTreeMap<String, parameter::Parameter>,
+    /// Materials.
+    #[serde(default)]
+    pub materials: BTreeMap<String, material::Material>,
+    /// Bodies.
+    #[serde(default)]
+    pub bodies: BTreeMap<String, body::Body>,
+    /// Named nodes or particles.
+    #[serde(default)]
+    pub sets: BTreeMap<String, connection::Set>,
+    /// Interfaces.
+    #[serde(default)]
+    pub ties: BTreeMap<String, connection::Tie>,
+    /// Prescribed displacements.
+    #[serde(default)]
+    pub supports: BTreeMap<String, connection::Support>,
+    /// Forces.
+    #[serde(default)]
+    pub loads: BTreeMap<String, connection::Load>,
+    /// What is read off.
+    #[serde(default)]
+    pub probes: BTreeMap<String, probe::Probe>,
+    /// What is judged.
+    #[serde(default)]
+    pub quantities: BTreeMap<String, quantity::Quantity>,
+    /// Named settings.
+    #[serde(default)]
+    pub variants: BTreeMap<String, study::Variant>,
+    /// The model that quantities are compared with.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub reference: Option<study::ReferenceModel>,
+    /// Refinement studies.
+    #[serde(default)]
+    pub convergence: BTreeMap<String, study::Convergence>,
+    /// Families of settings.
+    #[serde(default)]
+    pub families: BTreeMap<String, study::FamilyDeclaration>,
+    /// Claims.
+    #[serde(default)]
+    pub claims: BTreeMap<String, study::Claim>,
+    /// Error budgets.
+    #[serde(default)]
+    pub budgets: BTreeMap<String, study::BudgetDeclaration>,
+    /// Work–precision diagrams.
+    #[serde(default)]
+    pub costs: BTreeMap<String, study::CostDeclaration>,
+}
+
+fn both_tiers() -> Vec<Tier> {
+    vec![Tier::Quick, Tier::Full]
+}
+
+fn statics() -> String {
+    "statics".to_owned()
+}
+
+fn auto() -> Vec<String> {
+    vec!["auto".to_owned()]
+}
+
+fn plane_stress() -> Hypothesis {
+    Hypothesis::PlaneStress
+}
+
+fn unit_thickness() -> number::Number {
+    number::Number::Literal(1.0)
+}
+
+/// How much is run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Tier {
+    /// Under a minute for the whole catalogue.
+    Quick,
+    /// Everything.
+    Full,
+}
+
+impl Tier {
+    /// Name as in the scene file.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Quick => "quick",
+            Self::Full => "full",
+        }
+    }
+}
+
+/// Stress state.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Hypothesis {
+    /// Plane, free to change its thickness.
+    PlaneStress,
+    /// Plane, held in thickness.
+    PlaneStrain,
+    /// Three dimensions.
+    Solid,
+}
+
+impl Hypothesis {
+    /// The space it lives in.
+    pub fn space(self) -> Space {
+        match self {
+            Self::PlaneStress | Self::PlaneStrain => Space::Plane,
+            Self::Solid => Space::Solid,
+        }
+    }
+}
+
+/// `[needs]`: what a run of the full tier takes, for schedulers.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Needs {
+    /// Threads it can use.
+    pub threads: usize,
+    /// Memory, in MB.
+    pub mem_mb: usize,
+    /// Wall time, in minutes.
+    pub minutes: f64,
+}
+
+impl Default for Needs {
+    fn default() -> Self {
+        Self { threads: 1, mem_mb: 200, minutes: 0.1 }
+    }
+}
+
+/// `[limits]`: refuse larger models instead of running out of memory.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Limits {
+    /// Most particles of a body.
+    pub particles: usize,
+    /// Most nodes of a body.
+    pub nodes: usize,
+}
+
+impl Default for Limits {
+    fn default() -> Self {
+        Self { particles: 200_000, nodes: 500_000 }
+    }
+}
+
+impl Scene {
+    /// Values of all parameters.
+    ///
+    /// # Errors
+    /// An expression that cannot be evaluated, or parameters that need each other.
+    pub fn values(&self) -> Result<Values, Fault> {
+        let mut values = Values::new();
+        let mut waiting: Vec<&String> = self.parameters.keys().collect();
+        while !waiting.is_empty() {
+            let before = waiting.len();
+            let mut still = Vec::new();
+            for name in waiting {
+                let number = &self.parameters[name].value;
+                if number.names().iter().any(|n| self.parameters.contains_key(*n) && !values.contains_key(*n))
+                {
+                    still.push(name);
+                } else {
+                    values.insert(name.clone(), number.value(&values, &format!("parameters.{name}"))?);
+                }
+            }
+            if still.len() == before {
+                return Err(Fault::new(
+                    format!("parameters.{}", still[0]),
+                    "these parameters need each other, so none of them has a value",
+                    "give one of them a number",
+                ));
+            }
+            waiting = still;
+        }
+        Ok(values)
+    }
+}

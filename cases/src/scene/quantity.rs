@@ -1,0 +1,90 @@
+//! `[quantities.NAME]`: a number to be judged, what it is compared with, and how close it must be.
+
+use super::number::Number;
+use crate::result::ReferenceKind;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// A number read off the solution: the value of a scalar probe, or the error of a curve.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Quantity {
+    /// What it is, in words.
+    pub label: String,
+    /// SI unit, `1` for a pure number.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub unit: Option<String>,
+    /// Name of the probe.
+    pub probe: String,
+    /// Curves only: how its distance from the reference model is measured.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub norm: Option<Norm>,
+    /// Curves only: where.
+    #[serde(default)]
+    pub zone: Zone,
+    /// Take the value extrapolated from the levels of a convergence study of this quantity.
+    #[serde(default)]
+    pub extrapolated: bool,
+    /// What it is compared with.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub reference: Option<Reference>,
+    /// How close it must be; without it the number is shown and not judged.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub accept: Option<Accept>,
+}
+
+/// Distance between a curve s and its reference r, as a fraction.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Norm {
+    /// `max |s−r|/|r|` over the stations where `|r|` is at least 5 % of its largest value.
+    Pointwise,
+    /// `max |s−r| / max |r|`.
+    Largest,
+    /// `Σ (s−r) sgn r / Σ |r|`: positive where s is larger, and linear in s, so that parts add up.
+    Mean,
+}
+
+/// Part of a curve.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Zone {
+    /// All stations.
+    #[default]
+    Whole,
+    /// Stations inside bodies that have a `de` section.
+    De,
+}
+
+/// A reference value.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Reference {
+    /// Where it comes from.
+    pub kind: ReferenceKind,
+    /// The value; computed by the scene's `[reference]` model if not given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub value: Option<Number>,
+    /// Author, year, equation.
+    pub source: String,
+    /// Standard uncertainty, in the unit of the quantity.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub uncertainty: Option<Number>,
+}
+
+/// Accepted distance from the reference: `|a − ref| ≤ max(relative·|ref|, absolute)`, or an interval.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Accept {
+    /// Share of the reference.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub relative: Option<Number>,
+    /// In the unit of the quantity.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub absolute: Option<Number>,
+    /// Smallest and largest value, in the unit of the quantity.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub interval: Option<[Number; 2]>,
+    /// Why it is as wide as it is.
+    pub why: String,
+}

@@ -1,0 +1,93 @@
+//! Error budgets: the signed error of a quantity as a sum of differences between runs.
+
+use super::Study;
+use super::evaluate::{self, inside};
+use crate::error::Result;
+use crate::file::SceneFile;
+use crate::overrides::Override;
+use crate::result::{Budget, BudgetPart};
+use crate::scene::Tier;
+use crate::scene::quantity::{Norm, Quantity};
+use crate::scene::study::{BudgetDeclaration, Part, Seeds};
+
+/// All budgets of the scene.
+pub fn all(study: &Study) -> Result<Vec<Budget>> {
+    study.file.scene.budgets.iter().map(|(name, declared)| one(study, name, declared)).collect()
+}
+
+fn one(study: &Study, name: &str, declared: &BudgetDeclaration) -> Result<Budget> {
+    let quantity = &study.file.scene.quantities[&declared.quantity];
+    let total = error(study, quantity, &study.file.with(&study.variants(&declared.of))?)?;
+    let mut parts = Vec::new();
+    for part in &declared.parts {
+        parts.push(one_part(study, quantity, part)?);
+    }
+    let explained: f64 = parts.iter().map(|part| part.value).sum();
+    parts.push(BudgetPart {
+        name: "unexplained".to_owned(),
+        value: total - explained,
+        how: "the total less all parts".to_owned(),
+        scatter: None,
+    });
+    Ok(Budget {
+        id: name.to_owned(),
+        title: declared.title.clone(),
+        quantity: quantity.label.clone(),
+        total,
+        parts,
+    })
+}
+
+fn one_part(study: &Study, quantity: &Quantity, part: &Part) -> Result<BudgetPart> {
+    let difference = |seed: Option<Override>| -> Result<f64> {
+        let run = |names: &[String]| {
+            let mut changes = study.variants(names);
+            changes.extend(seed.clone());
+            error(study, quantity, &study.file.with(&changes)?)
+        };
+        // The converged reference has no error.
+        let from = if part.from_reference { 0.0 } else { run(&part.from)? };
+        Ok(run(&part.to)? - from)
+    };
+    let differences = match &part.seeds {
+        None => vec![difference(None)?],
+        Some(seeds) => of_tier(study, seeds)
+            .iter()
+            .map(|&seed| {
+                let key = format!("bodies.{}.de.packing.seed", seeds.body);
+                difference(Some(Override { key, value: seed.into() }))
+            })
+            .collect::<Result<Vec<f64>>>()?,
+    };
+    let n = differences.len() as f64;
+    let mean = differences.iter().sum::<f64>() / n;
+    let variance = differences.iter().map(|d| (d - mean).powi(2)).sum::<f64>() / (n - 1.0);
+    let scatter = (differences.len() > 1).then(|| variance.sqrt());
+    Ok(BudgetPart { name: part.name.clone(), value: mean, how: part.how.clone(), scatter })
+}
+
+fn of_tier<'a>(study: &Study, seeds: &'a Seeds) -> &'a [u64] {
+    match study.tier {
+        Tier::Quick => &seeds.quick,
+        Tier::Full => &seeds.full,
+    }
+}
+
+/// Signed error of a quantity, as a fraction of its reference. A scene's reference is that of the
+/// undivided scene, so that all runs are measured against one value.
+fn error(study: &Study, quantity: &Quantity, file: &SceneFile) -> Result<f64> {
+    let reference = study.library.of(study.file, study.tally)?;
+    let readings = evaluate::solve(file, study.tally)?.readings;
+    let found = match quantity.norm {
+        None => {
+            let exact = reference.scalars.get(&quantity.probe).map(|estimate| estimate.value);
+            readings.scalar(&quantity.probe).zip(exact).map(|(value, exact)| (value - exact) / exact)
+        }
+        Some(_) => {
+            let curve = readings.curve(&quantity.probe).zip(reference.curves.get(&quantity.probe));
+            curve.and_then(|(own, (exact, _))| own.distance(exact, Norm::Mean, inside(file, quantity.zone)))
+        }
+    };
+    found
+        .ok_or_else(|| study.error(format!("the budget of '{}' has nothing to compare with", quantity.label)))
+}

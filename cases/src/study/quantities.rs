@@ -1,0 +1,103 @@
+//! Quantities: measured values, their references and accepted intervals.
+
+use super::Study;
+use super::convergence::Refined;
+use super::evaluate::{Solved, inside};
+use crate::error::Result;
+use crate::result::{Observation, ReferenceKind};
+use crate::scene::number::Number;
+use crate::scene::quantity::{Accept, Quantity};
+use std::collections::BTreeMap;
+
+/// All quantities of the scene.
+pub fn all(study: &Study, solved: &Solved, refined: &BTreeMap<String, Refined>) -> Result<Vec<Observation>> {
+    let quantities = study.file.scene.quantities.iter();
+    quantities.map(|(name, quantity)| one(study, name, quantity, solved, refined.get(name))).collect()
+}
+
+fn one(
+    study: &Study,
+    name: &str,
+    quantity: &Quantity,
+    solved: &Solved,
+    refined: Option<&Refined>,
+) -> Result<Observation> {
+    let probe = &study.file.scene.probes[&quantity.probe];
+    let default_unit = if quantity.norm.is_some() { "1" } else { probe.read.unit() };
+    let mut observation = Observation {
+        id: name.to_owned(),
+        label: quantity.label.clone(),
+        unit: quantity.unit.clone().unwrap_or_else(|| default_unit.to_owned()),
+        ..Observation::default()
+    };
+    match (quantity.norm, refined) {
+        (Some(norm), _) => {
+            let reference = study.library.of(study.file, study.tally)?;
+            let (curve, u) = &reference.curves[&quantity.probe];
+            let own = solved.readings.curve(&quantity.probe);
+            let distance = own.and_then(|own| own.distance(curve, norm, inside(study.file, quantity.zone)));
+            observation.value = distance
+                .ok_or_else(|| study.error(format!("quantity '{name}': its zone holds no station")))?;
+            observation.kind = ReferenceKind::OwnFem;
+            observation.source = reference.about.clone();
+            observation.u_ref = *u;
+        }
+        (None, Some(refined)) if quantity.extrapolated => {
+            observation.value = refined.estimate.value;
+            observation.u_num = refined.estimate.u;
+        }
+        _ => {
+            let value = solved.readings.scalar(&quantity.probe);
+            observation.value =
+                value.ok_or_else(|| study.error(format!("quantity '{name}' has no value")))?;
+        }
+    }
+    compare(study, name, quantity, &mut observation)?;
+    if let Some(accept) = &quantity.accept {
+        observation.accepted = Some(accepted(study, name, accept, observation.reference)?);
+        observation.why = accept.why.clone();
+    }
+    Ok(observation)
+}
+
+fn compare(study: &Study, name: &str, quantity: &Quantity, observation: &mut Observation) -> Result<()> {
+    let Some(declared) = &quantity.reference else { return Ok(()) };
+    observation.kind = declared.kind;
+    observation.source = declared.source.clone();
+    match &declared.value {
+        Some(value) => {
+            observation.reference = Some(number(study, value, &format!("quantities.{name}.reference.value"))?)
+        }
+        None => {
+            let reference = study.library.of(study.file, study.tally)?;
+            if let Some(estimate) = reference.scalars.get(&quantity.probe) {
+                observation.reference = Some(estimate.value);
+                observation.u_ref = estimate.u;
+            }
+        }
+    }
+    if let Some(uncertainty) = &declared.uncertainty {
+        observation.u_ref = number(study, uncertainty, &format!("quantities.{name}.reference.uncertainty"))?;
+    }
+    Ok(())
+}
+
+/// `|a − ref| ≤ max(relative·|ref|, absolute)` as an interval of a.
+fn accepted(study: &Study, name: &str, accept: &Accept, reference: Option<f64>) -> Result<[f64; 2]> {
+    let part = |given: &Option<Number>, part: &str| match given {
+        Some(given) => number(study, given, &format!("quantities.{name}.accept.{part}")),
+        None => Ok(0.0),
+    };
+    if let Some([low, high]) = &accept.interval {
+        let key = format!("quantities.{name}.accept.interval");
+        return Ok([number(study, low, &format!("{key}[0]"))?, number(study, high, &format!("{key}[1]"))?]);
+    }
+    let reference = reference.unwrap_or(0.0);
+    let half =
+        (part(&accept.relative, "relative")? * reference.abs()).max(part(&accept.absolute, "absolute")?);
+    Ok([reference - half, reference + half])
+}
+
+fn number(study: &Study, number: &Number, key: &str) -> Result<f64> {
+    number.value(&study.file.values, key).map_err(|fault| study.file.error(fault))
+}
