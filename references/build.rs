@@ -10,7 +10,9 @@ fn main() -> io::Result<()> {
     println!("cargo::rerun-if-changed={}", root.display());
     let mut list = String::from("&[\n");
     for case in sorted(&root)?.iter().filter(|path| path.is_dir()) {
-        let stems: BTreeSet<PathBuf> = sorted(case)?.iter().map(|file| file.with_extension("")).collect();
+        let is_ours = |path: &PathBuf| path.extension().is_some_and(|e| e == "csv" || e == "toml");
+        let files = sorted(case)?.into_iter().filter(is_ours);
+        let stems: BTreeSet<PathBuf> = files.map(|file| file.with_extension("")).collect();
         for stem in stems {
             // A CSV without its provenance, or the other way round, fails here: include_*! names it.
             let _ = writeln!(
