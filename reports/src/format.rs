@@ -51,6 +51,16 @@ pub fn share(fraction: f64) -> String {
     format!("{p:.0} %")
 }
 
+/// A large count in groups of three digits, parted by narrow spaces that do not break.
+pub fn grouped(n: u64) -> String {
+    let digits = n.to_string();
+    let first = digits.len() % 3;
+    let groups =
+        digits.as_bytes()[first..].chunks(3).map(|c| c.iter().map(|b| char::from(*b)).collect::<String>());
+    let head = (first > 0).then(|| digits[..first].to_owned());
+    head.into_iter().chain(groups).collect::<Vec<_>>().join("\u{202f}")
+}
+
 /// A count with its noun, `1 setting` or `12 settings`.
 pub fn count(n: usize, noun: &str) -> String {
     if n == 1 { format!("1 {noun}") } else { format!("{n} {noun}s") }
@@ -77,6 +87,10 @@ mod tests {
         }
         assert_eq!(with_unit(2.0, "1"), "2");
         assert_eq!(with_unit(2.0, "m"), "2 m");
+        assert_eq!(
+            [0, 999, 1000, 12_345_678].map(grouped),
+            ["0", "999", "1\u{202f}000", "12\u{202f}345\u{202f}678"]
+        );
     }
 
     #[test]

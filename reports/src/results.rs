@@ -260,11 +260,16 @@ impl Results {
 /// The folder or the file cannot be written.
 pub fn write_whole(path: &Path, text: &str) -> Result<(), ResultsError> {
     let fail = |source| ResultsError::Write { path: path.display().to_string(), source };
-    let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    std::fs::create_dir_all(folder).map_err(fail)?;
-    let mut file = tempfile::Builder::new().suffix(".tmp").tempfile_in(folder).map_err(fail)?;
-    file.write_all(text.as_bytes()).map_err(fail)?;
-    file.as_file().sync_all().map_err(fail)?;
-    file.persist(path).map_err(|e| fail(e.error))?;
-    Ok(())
+    if let Some(folder) = path.parent() {
+        std::fs::create_dir_all(folder).map_err(fail)?;
+    }
+    let beside = path.with_added_extension(format!("{}.tmp", std::process::id()));
+    let written = std::fs::File::create(&beside)
+        .and_then(|mut file| file.write_all(text.as_bytes()).and_then(|()| file.sync_all()))
+        .and_then(|()| std::fs::rename(&beside, path));
+    written.map_err(|e| {
+        // Best effort: the error worth telling is the first one.
+        let _ = std::fs::remove_file(&beside);
+        fail(e)
+    })
 }

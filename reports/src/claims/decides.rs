@@ -2,6 +2,7 @@
 
 use super::settings::{Outcome, Setting};
 use crate::format;
+use crate::statistics::ensemble::Ensemble;
 use schemars::JsonSchema;
 use seam_cases::result::Family;
 use serde::{Deserialize, Serialize};
@@ -27,16 +28,16 @@ pub struct AxisValue {
     pub value: String,
     /// Share of these settings that meet the bound.
     pub share: f64,
-    /// Geometric mean of their errors, as a fraction.
-    pub error: f64,
+    /// Geometric mean of their errors, as a fraction; `null` if none could be run.
+    pub error: Option<f64>,
     /// How many settings there are.
     pub settings: usize,
 }
 
-/// Mean error of one setting under one reading, and whether it meets the bound.
+/// Mean error of one setting under one reading, where it could be run, and whether it meets the bound.
 struct Evidence {
     values: BTreeMap<String, String>,
-    error: f64,
+    error: Option<f64>,
     meets: bool,
 }
 
@@ -70,9 +71,9 @@ fn evidence(
         let mut values = s.values.clone();
         values.insert(READING.to_owned(), reading.to_owned());
         let meets = s.outcome(reading, family.bound, most_particles) == Outcome::Meets;
-        s.error(reading).map(|e| Evidence { values, error: e.mean, meets })
+        Evidence { values, error: s.error(reading).map(|e| e.mean), meets }
     };
-    settings.iter().filter_map(one).collect()
+    settings.iter().map(one).collect()
 }
 
 fn effect(axis: &str, evidence: &[Evidence]) -> Option<AxisEffect> {
@@ -85,9 +86,10 @@ fn effect(axis: &str, evidence: &[Evidence]) -> Option<AxisEffect> {
     let full = groups.values().filter(|g| g.len() == most);
     let values = values_of(axis, full.flatten().copied());
     let shares = || values.iter().map(|v| v.share);
-    let errors = || values.iter().map(|v| v.error);
+    let errors = || values.iter().filter_map(|v| v.error);
     let moves = shares().fold(0.0, f64::max) - shares().fold(1.0, f64::min);
-    let ratio = errors().fold(0.0, f64::max) / errors().fold(f64::INFINITY, f64::min);
+    let (worst, best) = (errors().fold(0.0, f64::max), errors().fold(f64::INFINITY, f64::min));
+    let ratio = if worst > 0.0 { worst / best } else { 1.0 };
     Some(AxisEffect { axis: axis.to_owned(), moves, ratio, values })
 }
 
@@ -100,17 +102,23 @@ fn values_of<'a>(axis: &str, evidence: impl Iterator<Item = &'a Evidence>) -> Ve
         by_value.entry(&e.values[axis]).or_default().push(e);
     }
     let summary = |(value, list): (&str, Vec<&Evidence>)| {
-        let n = list.len() as f64;
+        let logs: Vec<f64> = list.iter().filter_map(|e| e.error).map(|e| e.max(LEAST_ERROR).ln()).collect();
         AxisValue {
             value: value.to_owned(),
-            share: list.iter().filter(|e| e.meets).count() as f64 / n,
-            error: (list.iter().map(|e| e.error.max(LEAST_ERROR).ln()).sum::<f64>() / n).exp(),
+            share: list.iter().filter(|e| e.meets).count() as f64 / list.len() as f64,
+            error: Ensemble::of(&logs).map(|e| e.mean.exp()),
             settings: list.len(),
         }
     };
     let mut values: Vec<AxisValue> = by_value.into_iter().map(summary).collect();
-    values.sort_by(|a, b| b.share.total_cmp(&a.share).then(a.error.total_cmp(&b.error)));
+    values.sort_by(|a, b| b.share.total_cmp(&a.share).then(by_error(a, b)));
     values
+}
+
+/// Order by error, values that could not be run last.
+fn by_error(a: &AxisValue, b: &AxisValue) -> std::cmp::Ordering {
+    let of = |v: &AxisValue| v.error.unwrap_or(f64::INFINITY);
+    of(a).total_cmp(&of(b))
 }
 
 /// What decides, in one sentence: `skin decides: with weighted skin 96 % of settings meet 7 %, with
@@ -130,15 +138,15 @@ pub fn sentence(effects: &[AxisEffect], bound: f64) -> Option<String> {
         ));
     }
     let strongest = effects.iter().max_by(|a, b| a.ratio.total_cmp(&b.ratio)).filter(|e| e.ratio > 1.0)?;
-    let by_error = |a: &&AxisValue, b: &&AxisValue| a.error.total_cmp(&b.error);
-    let (best, worst) =
-        (strongest.values.iter().min_by(by_error)?, strongest.values.iter().max_by(by_error)?);
+    let measured = || strongest.values.iter().filter(|v| v.error.is_some());
+    let best = measured().min_by(|a, b| by_error(a, b))?;
+    let worst = measured().max_by(|a, b| by_error(a, b))?;
     let name = words(&strongest.axis);
     Some(format!(
         "{name} moves the error most: {} on average with {}, {} with {}",
-        format::percent(best.error),
+        format::percent(best.error?),
         with_value(&name, &best.value),
-        format::percent(worst.error),
+        format::percent(worst.error?),
         with_value(&name, &worst.value),
     ))
 }

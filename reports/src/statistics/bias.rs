@@ -83,6 +83,7 @@ mod tests {
             }))
         };
         assert!((of(0.1).unwrap().sigma - 0.1).abs() < 1e-12);
+        assert!((of(0.1).unwrap().delta - 1.0).abs() < 1e-12, "equal shares shift nothing");
         assert_eq!(of(0.5).unwrap().sigma, 0.0);
     }
 

@@ -10,10 +10,7 @@ fn errors_and_curves_can_be_read_back() {
     csv::write(&results, &cases, folder.path()).unwrap();
     let errors = std::fs::read_to_string(folder.path().join("errors.csv")).unwrap();
     assert_eq!(errors.lines().count(), 1 + 3 + 18);
-    assert!(
-        errors.lines().any(|l| l.starts_with("patch-fe,patch-03,m,3e-15,0.0,exact,")),
-        "{errors}"
-    );
+    assert!(errors.lines().any(|l| l.starts_with("patch-fe,patch-02,m,2e-15,0.0,exact,")), "{errors}");
     let curve =
         std::fs::read_to_string(folder.path().join("clamped-beam-rotation/curve-rotation.csv")).unwrap();
     assert_eq!(curve.lines().count(), 1 + 3 * 37 + 4);

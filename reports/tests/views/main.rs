@@ -2,5 +2,6 @@
 
 mod files;
 mod fixture;
+mod page;
 mod results;
 mod terminal;

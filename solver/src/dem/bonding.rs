@@ -2,6 +2,7 @@
 
 use super::arrangement::Arrangement;
 use super::bond::BondMaterial;
+use super::clusters::Clusters;
 use super::grid::{Boundary, Grid};
 use super::network::{Bonds, Network};
 use super::section::Section;
@@ -53,19 +54,21 @@ pub enum Bonding {
 }
 
 impl Bonding {
-    /// The pairs of an arrangement, ascending.
+    /// The pairs of an arrangement, ascending. Particles that a gap or coordination number leaves over (rattlers) are then
+    /// joined to the rest by their smallest gaps, see [`connect`], so that nothing floats.
     ///
     /// # Errors
     /// A coordination number out of reach.
     pub fn pairs(self, arrangement: &Arrangement) -> Result<Vec<Pair>> {
-        match self {
+        let pairs = match self {
             Bonding::Gap { share } => {
                 let radius = &arrangement.particles.radius;
-                Ok(by_gap(arrangement, share * radius.iter().sum::<f64>() / radius.len().max(1) as f64))
+                by_gap(arrangement, share * radius.iter().sum::<f64>() / radius.len().max(1) as f64)
             }
-            Bonding::Coordination { z } => Ok(by_coordination(arrangement, z)?.0),
-            Bonding::Delaunay { least_share } => Ok(delaunay(arrangement, least_share)),
-        }
+            Bonding::Coordination { z } => by_coordination(arrangement, z)?.0,
+            Bonding::Delaunay { least_share } => delaunay(arrangement, least_share),
+        };
+        Ok(connect(arrangement, pairs))
     }
 }
 
@@ -181,6 +184,26 @@ pub fn by_coordination(arrangement: &Arrangement, z: f64) -> Result<(Vec<Pair>, 
             ),
         }),
     }
+}
+
+/// Joins clusters of bonded particles by pairs of smallest gap, as few as it takes (Kruskal 1956), up to a gap of one mean diameter.
+/// A cluster held by one bond carries no load, so stiffness is not changed; but it moves with the body.
+pub fn connect(arrangement: &Arrangement, mut pairs: Vec<Pair>) -> Vec<Pair> {
+    let n = arrangement.particles.len();
+    let mut clusters = Clusters::of(n, pairs.iter().map(|pair| pair.ends));
+    if clusters.largest().len() == n {
+        return pairs;
+    }
+    let diameter = 2.0 * arrangement.particles.radius.iter().sum::<f64>() / n.max(1) as f64;
+    let mut candidates = gaps(arrangement, diameter);
+    candidates.sort_by(|a, b| a.0.total_cmp(&b.0));
+    for (_, pair) in candidates {
+        if clusters.join(pair.ends[0], pair.ends[1]) {
+            pairs.push(pair);
+        }
+    }
+    pairs.sort_unstable();
+    pairs
 }
 
 /// Pairs that share a facet of the Voronoi (power) diagram, ascending: the (regular) Delaunay triangulation without
@@ -337,6 +360,20 @@ mod tests {
         assert!(gap.abs() < 1e-12);
         assert!(by_coordination(&a, 40.0).is_err());
         assert!(by_coordination(&a, f64::NAN).is_err());
+    }
+
+    #[test]
+    fn leftover_particles_are_joined_by_one_bond_each() {
+        let a = square();
+        let corner = |p: &Pair| p.ends[0] == 0;
+        let mut pairs = by_gap(&a, 0.1);
+        pairs.retain(|p| !corner(p));
+        assert_eq!(pairs.len(), 58);
+        let joined = connect(&a, pairs.clone());
+        assert_eq!(joined.len(), 59);
+        assert_eq!(joined.iter().filter(|p| corner(p)).count(), 1);
+        let all = by_gap(&a, 0.1);
+        assert_eq!(connect(&a, all.clone()), all);
     }
 
     #[test]

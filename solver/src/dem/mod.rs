@@ -8,6 +8,7 @@ pub mod block;
 pub mod bond;
 pub mod bonding;
 pub mod calibration;
+pub mod clusters;
 pub mod grid;
 pub mod lattice;
 pub mod network;

@@ -4,11 +4,12 @@
 //! to a unit diagonal (so that rotations and displacements, soft and stiff bodies weigh
 //! alike), B to unit rows. Factorised is the quasi-definite
 //!
-//! `[K + γBᵀB + δ, Bᵀ; B, −ε]`, γ = 1, ε = 1e-11, δ = 1e-14 in scaled units,
+//! `[K + γBᵀB + δ, Bᵀ; B, −ε]`, γ = 1, ε = 1e-7, δ = 1e-15 in scaled units,
 //!
-//! (δ lets a mechanism through to where it is named; ε this small keeps refinement quick when rows
-//! are nearly dependent), and refinement runs on the residual of the *true* system with the right-hand side
-//! `[r_u + γBᵀr_λ; r_λ]` (Vanderbei 1995; augmented Lagrangian: Fortin and Glowinski 1983).
+//! and refinement runs on the residual of the *true* system with the right-hand side
+//! `[r_u + γBᵀr_λ; r_λ]` (Vanderbei 1995; augmented Lagrangian: Fortin and Glowinski 1983). It gains
+//! a factor of about ε over the softest constraint's response, so that it stalls where rows are
+//! nearly dependent; [`EPSILONS`] lists what to try next. δ lets a mechanism through to where it is named.
 
 use super::order::nested_dissection;
 use super::sparse::{Factor, Ordering, SymmetricMatrix, Triplets};
@@ -17,12 +18,13 @@ use crate::space::{Space, Vec3};
 use crate::work::Work;
 
 const GAMMA: f64 = 1.0;
-const EPSILON: f64 = 1e-11;
-const DELTA: f64 = 1e-14;
+const DELTA: f64 = 1e-15;
+/// Values of ε: the smaller, the quicker refinement over nearly dependent rows, but the more rounding in the factor.
+pub const EPSILONS: [f64; 2] = [1e-7, 1e-11];
 /// Refinement stops when the residual no longer halves, at the latest after this many steps.
 const MOST_REFINEMENTS: usize = 12;
 /// A solution with a larger relative residual is refused.
-pub const LARGEST_RESIDUAL: f64 = 1e-10;
+pub const LARGEST_RESIDUAL: f64 = 1e-9;
 
 /// What the elimination order is made from.
 pub struct Layout<'a> {
@@ -65,6 +67,7 @@ impl Kkt {
         stiffness: &SymmetricMatrix,
         rows: &[Vec<(usize, f64)>],
         layout: &Layout,
+        epsilon: f64,
         work: &mut Work,
     ) -> Result<Self> {
         let n = stiffness.len();
@@ -97,7 +100,7 @@ impl Kkt {
                 row.iter().for_each(|&(j, bj)| scaled.push(i, j, GAMMA * bi * bj));
                 scaled.push(n + k, i, bi);
             }
-            scaled.push(n + k, n + k, -EPSILON);
+            scaled.push(n + k, n + k, -epsilon);
         }
         let matrix = SymmetricMatrix::from_triplets(n + rows.len(), &scaled);
         drop(scaled);
@@ -183,52 +186,29 @@ impl Kkt {
 
     /// The softest motion and its stiffness relative to a unit diagonal: at the rounding floor it is a mechanism.
     ///
-    /// Two steps of inverse iteration, then one correction: the factor is only accurate to rounding over ε,
-    /// so that the motion would violate the constraints a little.
+    /// One step of inverse iteration is enough to tell: it enlarges a mechanism by 1/δ.
     pub fn softest_motion(&self, work: &mut Work) -> (Vec<f64>, f64) {
         let n = self.unknown_scale.len();
         // Any start that is not orthogonal to the motion will do; irrational steps repeat no pattern.
-        let mut z: Vec<f64> =
-            (0..n + self.rows.len()).map(|i| (1.0 + i as f64 * 0.754_877_666).sin()).collect();
-        for _ in 0..2 {
-            z[n..].fill(0.0);
-            normalise(&mut z[..n]);
-            self.factor.solve_in_place(&mut z);
-            work.solves += 1;
-        }
+        let mut z: Vec<f64> = (0..n).map(|i| (1.0 + i as f64 * 0.754_877_666).sin()).collect();
+        z.resize(n + self.rows.len(), 0.0);
+        self.factor.solve_in_place(&mut z);
+        work.solves += 1;
         z.truncate(n);
-        normalise(&mut z);
-        let (mut r, gap) = self.stiffness_and_gap(&z);
-        let stiffness = dot(&z, &r) + dot(&gap, &gap);
-        r.iter_mut().zip(&z).for_each(|(r, z)| *r -= stiffness * z);
-        r.extend(gap);
-        self.correct(&mut r, work);
-        let along = dot(&z, &r[..n]);
-        let corrected: Vec<f64> = z.iter().zip(&r).map(|(z, r)| z - (r - along * z)).collect();
-        let mut z = corrected;
-        normalise(&mut z);
-        let (r, gap) = self.stiffness_and_gap(&z);
-        let corrected = dot(&z, &r).abs() + dot(&gap, &gap);
+        let length = dot(&z, &z).sqrt();
+        z.iter_mut().for_each(|v| *v /= length);
+        let mut internal = vec![0.0; n];
+        self.stiffness.multiply_add(&z, &mut internal);
+        let gap: f64 =
+            self.rows.iter().map(|row| row.iter().map(|&(i, b)| b * z[i]).sum::<f64>().powi(2)).sum();
+        let stiffness = dot(&z, &internal).abs() + gap;
         let motion = z.iter().zip(&self.unknown_scale).map(|(x, s)| x * s).collect();
-        (motion, corrected.min(stiffness.abs()))
-    }
-
-    /// `K z` and `B z`, scaled.
-    fn stiffness_and_gap(&self, z: &[f64]) -> (Vec<f64>, Vec<f64>) {
-        let mut internal = vec![0.0; z.len()];
-        self.stiffness.multiply_add(z, &mut internal);
-        let gap = self.rows.iter().map(|row| row.iter().map(|&(i, b)| b * z[i]).sum()).collect();
-        (internal, gap)
+        (motion, stiffness)
     }
 }
 
 fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
-}
-
-fn normalise(z: &mut [f64]) {
-    let length = dot(z, z).sqrt();
-    z.iter_mut().for_each(|v| *v /= length);
 }
 
 fn factorise(matrix: &SymmetricMatrix, layout: &Layout) -> Result<Factor> {

@@ -1,6 +1,6 @@
 //! Linear statics of a model: one factorisation, one right-hand side.
 
-use super::kkt::{Kkt, KktSolution, Layout};
+use super::kkt::{EPSILONS, Kkt, KktSolution, Layout};
 use super::mechanism;
 use super::sparse::{SymmetricMatrix, Triplets};
 use crate::coupling::{Row, assemble, rank};
@@ -86,10 +86,10 @@ pub fn solve(model: &Model) -> Result<Solution> {
     let layout =
         Layout { space: model.space, group: &group, positions: &positions, row_positions: &row_positions };
 
-    let kkt = Kkt::new(&reduced, &tied.reduced, &layout, &mut work)?;
-    drop(reduced);
-    mechanism::refuse(model, &numbering, &free, kkt.softest_motion(&mut work))?;
-    let KktSolution { u: free_u, multipliers, residual } = kkt.solve(&load, &tied.rhs, &mut work)?;
+    let KktSolution { u: free_u, multipliers, residual } =
+        equilibrium(&reduced, &tied, &layout, &load, &mut work, |softest| {
+            mechanism::refuse(model, &numbering, &free, softest)
+        })?;
 
     let mut u: Vec<f64> = prescribed.iter().map(|p| p.unwrap_or(0.0)).collect();
     free.iter().zip(&free_u).for_each(|(&i, &v)| u[i] = v);
@@ -99,6 +99,29 @@ pub fn solve(model: &Model) -> Result<Solution> {
     let reactions = internal.iter().zip(&f).map(|(k, f)| k - f).collect();
     let multipliers = tied.rows.into_iter().zip(multipliers).collect();
     Ok(Solution { numbering, u, reactions, multipliers, energy, residual, work, notes: tied.notes })
+}
+
+/// Factorises, refuses mechanisms and solves; once more with the next ε where refinement stalls.
+fn equilibrium(
+    stiffness: &SymmetricMatrix,
+    tied: &Constraints,
+    layout: &Layout,
+    load: &[f64],
+    work: &mut Work,
+    refuse_mechanism: impl Fn((Vec<f64>, f64)) -> Result<()>,
+) -> Result<KktSolution> {
+    let [first, rest @ ..] = EPSILONS;
+    let kkt = Kkt::new(stiffness, &tied.reduced, layout, first, work)?;
+    refuse_mechanism(kkt.softest_motion(work))?;
+    let mut solution = kkt.solve(load, &tied.rhs, work);
+    drop(kkt);
+    for epsilon in rest {
+        if solution.is_ok() {
+            break;
+        }
+        solution = Kkt::new(stiffness, &tied.reduced, layout, epsilon, work)?.solve(load, &tied.rhs, work);
+    }
+    solution
 }
 
 /// Stiffness matrix of all parts on all unknowns.

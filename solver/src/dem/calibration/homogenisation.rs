@@ -8,6 +8,7 @@ use super::equilibrium::Equilibrium;
 use super::isotropy::Moduli;
 use crate::dem::bond::{keep_rows, stiffness_matrix};
 use crate::dem::bonding::PeriodicNetwork;
+use crate::dem::clusters::Clusters;
 use crate::dem::network::Network;
 use crate::error::{Error, Result};
 use crate::fem::elasticity::Stiffness;
@@ -82,16 +83,18 @@ impl Numbering {
     /// fluctuation cannot turn as a whole).
     fn new(periodic: &PeriodicNetwork) -> Result<Self> {
         let space = periodic.network.space;
-        let carries = largest_cluster(periodic);
-        let Some(anchor) = carries.iter().position(|&c| c) else {
+        let particles = periodic.network.particles.len();
+        let cluster = carriers(periodic);
+        let Some(&anchor) = cluster.first() else {
             return Err(Error::Geometry {
                 what: "homogenisation".into(),
                 message: "the network has no bonds; bond it first".into(),
             });
         };
-        let mut numbering = Self { unknown: Vec::new(), count: 0, idle: 0 };
+        let mut carries = vec![false; particles];
+        cluster.iter().for_each(|&p| carries[p] = true);
+        let mut numbering = Self { unknown: Vec::new(), count: 0, idle: particles - cluster.len() };
         for (particle, &carries) in carries.iter().enumerate() {
-            numbering.idle += usize::from(!carries);
             for c in 0..space.dofs_per_particle() {
                 let held = !carries || (particle == anchor && c < space.dim());
                 numbering.unknown.push((!held).then_some(numbering.count));
@@ -102,30 +105,12 @@ impl Numbering {
     }
 }
 
-/// Which particles belong to the largest cluster of two or more.
-fn largest_cluster(periodic: &PeriodicNetwork) -> Vec<bool> {
-    let bonds = &periodic.network.bonds;
-    let mut root: Vec<usize> = (0..periodic.network.particles.len()).collect();
-    fn find(root: &mut [usize], mut p: usize) -> usize {
-        while root[p] != p {
-            root[p] = root[root[p]];
-            p = root[p];
-        }
-        p
-    }
-    let mut bonded = vec![false; root.len()];
-    for &[i, j] in &bonds.ends {
-        (bonded[i], bonded[j]) = (true, true);
-        let (a, b) = (find(&mut root, i), find(&mut root, j));
-        root[a.max(b)] = a.min(b);
-    }
-    let of: Vec<usize> = (0..root.len()).map(|p| find(&mut root, p)).collect();
-    let mut size = vec![0usize; of.len()];
-    of.iter().zip(&bonded).filter(|(_, bonded)| **bonded).for_each(|(&r, _)| size[r] += 1);
-    let largest = size.iter().copied().max().unwrap_or(0);
-    // Of equally large ones the first.
-    let chosen = size.iter().position(|&s| s == largest && s > 0);
-    of.iter().zip(&bonded).map(|(&r, &bonded)| bonded && Some(r) == chosen).collect()
+/// Particles of the largest cluster, ascending. A period of one particle is bonded to its own images.
+fn carriers(periodic: &PeriodicNetwork) -> Vec<usize> {
+    let Network { particles, bonds, .. } = &periodic.network;
+    let own_image = bonds.ends.iter().find(|[i, j]| i == j).map(|[i, _]| vec![*i]);
+    let largest = Clusters::of(particles.len(), bonds.ends.iter().copied()).largest();
+    if largest.is_empty() { own_image.unwrap_or_default() } else { largest }
 }
 
 /// Stiffness of the fluctuation, forces of each unit strain, and `Σ q_aᵀ K q_b` of the affine motions.

@@ -1,0 +1,119 @@
+//! The report page.
+
+use super::fixture;
+use seam_reports::html::{page, write_report};
+use seam_reports::judge::judge;
+use seam_reports::record::Recorded;
+
+fn the_page() -> String {
+    page(&fixture::results(), &fixture::cases()).unwrap()
+}
+
+#[test]
+fn the_answer_comes_first() {
+    let page = the_page();
+    let order = [
+        "id=\"claims\"",
+        "id=\"failures\"",
+        "id=\"numbers\"",
+        "id=\"bias\"",
+        "id=\"budget\"",
+        "id=\"cost\"",
+        "id=\"cases\"",
+        "id=\"provenance\"",
+        "id=\"machine\"",
+    ];
+    let places: Vec<usize> = order.iter().map(|id| page.find(id).unwrap_or_else(|| panic!("{id}"))).collect();
+    assert!(places.is_sorted(), "{places:?}");
+}
+
+#[test]
+fn the_page_needs_nothing_else() {
+    let page = the_page();
+    for outside in ["<link", "src=", "@import", "url(", "https://"] {
+        assert!(!page.contains(outside), "{outside}");
+    }
+    // The namespace of SVG is a name, not an address to fetch.
+    assert_eq!(page.matches("http://").count(), page.matches("xmlns=\"http://www.w3.org/2000/svg\"").count());
+}
+
+#[test]
+fn every_link_within_the_page_leads_somewhere() {
+    let page = the_page();
+    for link in page.split("href=\"#").skip(1).filter_map(|rest| rest.split('"').next()) {
+        assert!(page.contains(&format!("id=\"{link}\"")), "#{link}");
+    }
+}
+
+#[test]
+fn every_figure_can_be_read_aloud_and_follows_the_theme() {
+    let page = the_page();
+    let figures: Vec<&str> = page.split("<svg ").skip(1).filter_map(|s| s.split("</svg>").next()).collect();
+    assert_eq!(figures.len(), 9, "family, bias, budget, work, seconds, picture, curves, residuals, order");
+    for figure in figures {
+        assert!(figure.contains("role=\"img\"") && figure.contains("<title>") && figure.contains("<desc>"));
+        let hard = figure.split(['"', ' ']).find(|word| word.starts_with('#'));
+        assert_eq!(hard, None, "a colour that no theme can change in {}", &figure[..200]);
+        assert!(!figure.contains("NaN"));
+    }
+}
+
+#[test]
+fn text_from_a_scene_is_escaped() {
+    let mut cases = fixture::cases();
+    let evil = "<script>alert(1)</script>";
+    cases[0].title = evil.into();
+    cases[0].purpose = evil.into();
+    cases[0].families[0].statement = evil.into();
+    cases[0].curves[0].title = evil.into();
+    cases[0].curves[0].x_label = evil.into();
+    cases[0].curves[0].series[1].name = evil.into();
+    cases[0].budgets[0].parts[0].name = evil.into();
+    cases[0].pictures[0].title = evil.into();
+    cases[0].quantities[0].label = evil.into();
+    cases[0].command = evil.into();
+    let results = judge(&cases, fixture::provenance(), &Recorded::default());
+    let page = page(&results, &cases).unwrap();
+    assert!(!page.contains("<script>alert") && page.contains("&lt;script&gt;alert"));
+}
+
+#[test]
+fn two_runs_differ_in_the_machine_block_only() {
+    let again = |seconds: f64| {
+        let mut cases = fixture::cases();
+        cases[0].seconds = seconds;
+        for setting in &mut cases[0].costs[0].settings {
+            setting.points.iter_mut().for_each(|p| p.seconds *= seconds);
+        }
+        let mut provenance = fixture::provenance();
+        provenance.machine.started = format!("{seconds}");
+        let page = page(&judge(&cases, provenance, &Recorded::default()), &cases).unwrap();
+        let (before, rest) = page.split_once("<!-- machine: begin -->").unwrap();
+        let (machine, after) = rest.split_once("<!-- machine: end -->").unwrap();
+        (before.to_owned(), machine.to_owned(), after.to_owned())
+    };
+    let (one, two) = (again(1.0), again(7.0));
+    assert!(one.0 == two.0 && one.2 == two.2);
+    assert_ne!(one.1, two.1);
+}
+
+#[test]
+fn degenerate_results_still_make_a_page() {
+    let mut cases = fixture::cases();
+    let beam = &mut cases[0];
+    beam.families[0].members.clear();
+    beam.budgets[0].parts.clear();
+    beam.costs[0].settings[0].points.iter_mut().for_each(|p| p.error = None);
+    beam.curves[0].series.truncate(1);
+    beam.curves[0].series[0].y[3] = f64::NAN;
+    beam.pictures[0].deformed_elements.clear();
+    beam.pictures[0].bonds.push([0, 999]);
+    beam.quantities[0].value = f64::INFINITY;
+    cases[1].convergence[0].error = vec![0.0; 4];
+    let results = judge(&cases, fixture::provenance(), &Recorded::default());
+    let folder = tempfile::tempdir().unwrap();
+    write_report(&results, &cases, folder.path()).unwrap();
+    let page = std::fs::read_to_string(folder.path().join("report.html")).unwrap();
+    assert!(!page.contains("NaN") && page.contains("could not be measured"));
+    assert!(seam_reports::html::page(&judge(&[], fixture::provenance(), &Recorded::default()), &[]).is_ok());
+}
