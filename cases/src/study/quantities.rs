@@ -10,11 +10,7 @@ use crate::scene::quantity::{Accept, Quantity};
 use std::collections::BTreeMap;
 
 /// All quantities of the scene.
-pub fn all(
-    study: &Study,
-    solved: &Solved,
-    refined: &BTreeMap<String, Refined>,
-) -> Result<Vec<Observation>> {
+pub fn all(study: &Study, solved: &Solved, refined: &BTreeMap<String, Refined>) -> Result<Vec<Observation>> {
     let mut all = Vec::new();
     for (name, quantity) in &study.file.scene.quantities {
         let refined = refined.get(name);
