@@ -1,3 +1,37 @@
-//! The `seam` command.
+//! The `seam` command: words in, exit code out. All else is in the libraries.
 
-fn main() {}
+mod args;
+mod progress;
+mod provenance;
+mod results;
+mod running;
+mod verbs;
+
+use args::{Command, Verb};
+use clap::Parser;
+use seam_reports::exit::Exit;
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    let command = Command::parse();
+    let done = match command.verb.unwrap_or(Verb::Validate(command.validate)) {
+        Verb::Validate(words) => verbs::validate(&words),
+        Verb::List(words) => verbs::list(&words),
+        Verb::Show(words) => verbs::show(&words),
+        Verb::Run(words) => verbs::run(&words),
+        Verb::Check(words) => verbs::check(&words),
+        Verb::Report(words) => verbs::report(&words),
+    };
+    let exit = done.unwrap_or_else(|error| {
+        eprintln!("seam: {error:#}");
+        exit_of(&error)
+    });
+    ExitCode::from(exit as u8)
+}
+
+/// What could not be measured is 4; everything else a user can mend is 2.
+fn exit_of(error: &anyhow::Error) -> Exit {
+    let unmeasured = error.downcast_ref::<results::Unmeasured>().is_some()
+        || matches!(error.downcast_ref(), Some(seam_cases::error::Error::Study { .. }));
+    if unmeasured { Exit::Unmeasured } else { Exit::Usage }
+}

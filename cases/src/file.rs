@@ -78,6 +78,11 @@ impl SceneFile {
         Error::Solver { case: self.scene.id.clone(), source }
     }
 
+    /// The text as it is run, overrides included.
+    pub fn text(&self) -> &str {
+        &self.source.text
+    }
+
     /// Blake3 of the text as it was run, overrides included.
     pub fn hash(&self) -> String {
         blake3::hash(self.source.text.as_bytes()).to_hex().to_string()

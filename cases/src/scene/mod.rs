@@ -1,6 +1,6 @@
 //! The scene file: a case as a page of text.
 //!
-//! One file per element of the format. A scene is read by [`crate::source::SceneFile`], which knows
+//! One file per element of the format. A scene is read by [`crate::file::SceneFile`], which knows
 //! where every key stands; the types here know nothing of files.
 
 pub mod body;

@@ -164,3 +164,57 @@ impl System {
         system
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::dem::arrangement::Arrangement;
+    use crate::dem::block::Block;
+    use crate::dem::bond::BondMaterial;
+    use crate::dem::bonding::{BondRecipe, Pair, periodic_network};
+    use crate::dem::grid::Boundary;
+    use crate::dem::section::Section;
+    use crate::dem::skin::Skin;
+
+    /// Two particles per period along x, each bonded to its own image along y.
+    fn chain(kn: [f64; 2]) -> PeriodicNetwork {
+        let block = Block::at_origin(Space::Plane, Vec3::new(1.0, 1.0, 0.0)).unwrap();
+        let position = vec![Vec3::new(0.2, 0.5, 0.0), Vec3::new(0.7, 0.5, 0.0)];
+        let arrangement = Arrangement::new(
+            Space::Plane,
+            block,
+            Boundary::Periodic,
+            Default::default(),
+            position,
+            vec![0.25; 2],
+        )
+        .unwrap();
+        let pairs = [([0, 0], [0, 1, 0]), ([1, 1], [0, 1, 0]), ([0, 1], [0, 0, 0]), ([0, 1], [-1, 0, 0])]
+            .map(|(ends, shift)| Pair { ends, shift });
+        let material = BondMaterial { young_pa: 1.0, poisson: 0.3 };
+        let recipe = BondRecipe { material, section: Section::Uniform { ratio: 1.0 }, skin: Skin::Full };
+        let mut network = periodic_network(&arrangement, &pairs, &recipe).unwrap();
+        for (k, kn) in network.network.bonds.stiffness[2..].iter_mut().zip(kn) {
+            k.kn = kn;
+        }
+        network
+    }
+
+    #[test]
+    fn unequal_bonds_in_a_row_act_in_series() {
+        // Two springs k₁, k₂ in a period of unit length, height and thickness: C11 = k₁k₂/(k₁+k₂), where
+        // the affine motion would give (k₁+k₂)/4.
+        let found = homogenise(&chain([1.0, 3.0]), &mut Work::default()).unwrap();
+        assert!((found.stiffness[(0, 0)] - 0.75).abs() < 1e-13, "{}", found.stiffness);
+        assert!(found.stiffness[(0, 1)].abs() < 1e-13);
+        assert_eq!(found.idle, 0);
+    }
+
+    #[test]
+    fn a_network_without_bonds_is_refused() {
+        let mut network = chain([1.0, 1.0]);
+        network.network.bonds = Default::default();
+        network.shift.clear();
+        assert!(homogenise(&network, &mut Work::default()).is_err());
+    }
+}

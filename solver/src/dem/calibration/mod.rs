@@ -11,6 +11,7 @@ pub mod isotropy;
 pub mod lattice;
 pub mod search;
 pub mod specimen;
+pub mod stretched;
 pub mod tension;
 
 use isotropy::Moduli;

@@ -102,7 +102,7 @@ pub struct PackingRow {
 
 /// `E/E_μ` and `ν` of random packings of `count` spheres at several `r̃`. Protocol: periodic cube, radii uniform in ±20 %, solid fraction
 /// 0.64, bonds by ascending gap until the mean coordination number is 6.2, `r_b = r̃(R_i+R_j)/2`, `ν_μ = 0.3`, volume of the
-/// whole cube; particles without bonds stay in place and carry nothing.
+/// whole cube; particles left over are joined by one bond each, which carries nothing.
 ///
 /// # Errors
 /// No seeds, or a packing or solve that fails.

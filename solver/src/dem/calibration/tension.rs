@@ -145,6 +145,15 @@ mod tests {
     }
 
     #[test]
+    fn a_triangular_block_shows_the_bulk_moduli() {
+        let (shown, exact) = stretched(LatticeKind::Triangular, Skin::Weighted);
+        // The smooth platens and the stretch of the cells (some 4 %) leave a few per cent; the sign of ν is not in doubt.
+        assert!((shown.young_pa / exact.young_pa - 1.0).abs() < 0.05, "{shown:?} {exact:?}");
+        assert!((shown.poisson - exact.poisson).abs() < 0.05, "{shown:?} {exact:?}");
+        assert!(exact.poisson > 0.1);
+    }
+
+    #[test]
     fn a_block_without_face_particles_is_refused() {
         let block = Block::at_origin(crate::space::Space::Plane, Vec3::new(2.0, 2.0, 0.0)).unwrap();
         let l = lattice(LatticeKind::Square, block, 2, Default::default()).unwrap();

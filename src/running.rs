@@ -1,0 +1,88 @@
+//! Running cases side by side, each into its own folder.
+
+use crate::args::{Running, Tier};
+use crate::progress::Progress;
+use crate::results;
+use anyhow::{Result, bail};
+use rayon::prelude::*;
+use seam_cases::file::SceneFile;
+use seam_cases::overrides::Override;
+use seam_cases::{catalogue, procedures, scene, write};
+use std::path::Path;
+
+/// The scenes named by ids and paths; without any, the whole catalogue of the tier.
+pub fn scenes(words: &[String], overrides: &[String], tier: Tier) -> Result<Vec<SceneFile>> {
+    let changes = overrides.iter().map(|o| Override::parse(o)).collect::<Result<Vec<_>, _>>()?;
+    if words.is_empty() {
+        if !changes.is_empty() {
+            bail!("--set needs a case to apply to: seam run ID --set {}", overrides[0]);
+        }
+        let all = catalogue::ids().map(|id| catalogue::case(id, &[]));
+        let all = all.collect::<Result<Vec<_>, _>>()?;
+        return Ok(all.into_iter().filter(|f| f.scene.tiers.contains(&tier.into())).collect());
+    }
+    let open = |word: &String| match word.ends_with(".toml") {
+        true => SceneFile::open(Path::new(word), &changes),
+        false => catalogue::case(word, &changes),
+    };
+    let files = words.iter().map(open).collect::<Result<Vec<_>, _>>()?;
+    for (k, file) in files.iter().enumerate() {
+        if files[..k].iter().any(|other| other.scene.id == file.scene.id) {
+            bail!(
+                "two cases have the id '{}' and would share one folder; run them into different --out folders",
+                file.scene.id
+            );
+        }
+    }
+    Ok(files)
+}
+
+impl From<Tier> for scene::Tier {
+    fn from(tier: Tier) -> Self {
+        match tier {
+            Tier::Quick => scene::Tier::Quick,
+            Tier::Full => scene::Tier::Full,
+        }
+    }
+}
+
+/// Runs scenes into `out`; one that fails leaves the others, and its own earlier result, whole.
+///
+/// The first failure is returned once all have run.
+pub fn run(files: &[SceneFile], out: &Path, running: &Running) -> Result<()> {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(running.jobs.unwrap_or(0)).build()?;
+    let progress = Progress::new(files.len(), running.quiet);
+    // The heaviest first, so that none is left alone at the end.
+    let mut order: Vec<&SceneFile> = files.iter().collect();
+    order.sort_by(|a, b| b.scene.needs.minutes.total_cmp(&a.scene.needs.minutes));
+    let failed: Vec<anyhow::Error> = pool.install(|| {
+        order.par_iter().with_max_len(1).filter_map(|file| one(file, out, running, &progress).err()).collect()
+    });
+    progress.finish();
+    let mut failed = failed.into_iter();
+    let Some(first) = failed.next() else { return Ok(()) };
+    failed.for_each(|error| eprintln!("seam: {error:#}"));
+    Err(first)
+}
+
+fn one(file: &SceneFile, out: &Path, running: &Running, progress: &Progress) -> Result<()> {
+    let id = &file.scene.id;
+    if running.resume && is_current(file, out, running.tier) {
+        progress.done(id, "kept");
+        return Ok(());
+    }
+    progress.begin(id);
+    let run = procedures::run(file, running.tier.into()).inspect_err(|_| progress.done(id, "failed"))?;
+    write::write(out, &run)?;
+    progress.done(id, &format!("{:.1} s", run.result.seconds));
+    Ok(())
+}
+
+/// Whether there is a result of the same scene and tier.
+fn is_current(file: &SceneFile, out: &Path, tier: Tier) -> bool {
+    let place = out.join(&file.scene.id).join(write::RESULT);
+    let same = |r: seam_cases::result::CaseResult| {
+        r.scene_hash == file.hash() && r.tier == scene::Tier::from(tier).name()
+    };
+    place.is_file() && results::read(&place).is_ok_and(same)
+}

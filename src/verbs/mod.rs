@@ -1,0 +1,15 @@
+//! One file per verb.
+
+mod check;
+mod list;
+mod report;
+mod run;
+mod show;
+mod validate;
+
+pub use check::check;
+pub use list::list;
+pub use report::report;
+pub use run::run;
+pub use show::show;
+pub use validate::validate;

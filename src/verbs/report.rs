@@ -1,0 +1,27 @@
+//! `seam report`: the report page of a run.
+
+use super::check::judge_into;
+use crate::args::Report;
+use crate::results;
+use anyhow::Result;
+use seam_cases::result::CaseResult;
+use seam_reports::exit::Exit;
+use seam_reports::results::Results;
+use seam_reports::{csv, html};
+use std::path::Path;
+
+/// Writes the report from results that are there.
+pub fn report(words: &Report) -> Result<Exit> {
+    let cases = results::load(&words.from)?;
+    let judged = judge_into(&cases, &words.from)?;
+    write(&judged, &cases, &words.from)?;
+    eprintln!("{}", words.from.join("report.html").display());
+    Ok(Exit::Pass)
+}
+
+/// The page and the tables behind it.
+pub fn write(judged: &Results, cases: &[CaseResult], folder: &Path) -> Result<()> {
+    html::write_report(judged, cases, folder)?;
+    csv::write(judged, cases, folder)?;
+    Ok(())
+}
