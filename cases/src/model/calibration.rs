@@ -3,6 +3,7 @@
 use super::particles::Protocol;
 use seam_solver::dem::arrangement::Matter;
 use seam_solver::dem::bonding::{BondRecipe, periodic_network};
+use seam_solver::dem::calibration;
 use seam_solver::dem::calibration::homogenisation::homogenise;
 use seam_solver::dem::calibration::isotropy::Moduli;
 use seam_solver::dem::calibration::search::{CalibrationRequest, Reading, calibrate};
@@ -52,6 +53,19 @@ pub fn lattice(unit: Unit, target: &Target, given: &BondRecipe, both: bool) -> R
     remembered(key, || {
         let matter = Matter { density: 1.0, thickness_m: target.thickness_m };
         let specimens = [Specimen::lattice_cell(unit.kind, unit.spacing, unit.stretch, matter)?];
+        if both && matches!(unit.kind, LatticeKind::Square | LatticeKind::SimpleCubic) {
+            // ν is 0 at every r̃, so a search would find any; the closed form takes the isotropic one.
+            let wanted = Moduli::of(&target.elasticity, target.hypothesis);
+            let exact = calibration::lattice::calibrate(
+                unit.kind,
+                unit.spacing,
+                matter.thickness_m,
+                wanted,
+                given.material.poisson,
+            )?;
+            let isotropic = BondRecipe { section: given.section.with_ratio(exact.radius_ratio), ..*given };
+            return find(&specimens, Reading::AlongX, target, &isotropic, false);
+        }
         find(&specimens, Reading::AlongX, target, given, both)
     })
 }

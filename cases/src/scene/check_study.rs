@@ -120,6 +120,7 @@ fn check_quantity(scene: &Scene, name: &str, quantity: &Quantity, values: &Value
         return Err(Fault::new(key, "the procedure brings its own quantities", "remove the table"));
     }
     known(&quantity.probe, "probe", scene.probes.keys(), &format!("{key}.probe"))?;
+    variants(scene, &quantity.variants, &format!("{key}.variants"))?;
     let curve = scene.probes[&quantity.probe].line.is_some();
     if curve != quantity.norm.is_some() {
         let mend = "a curve needs `norm` to become a number, a scalar has none";

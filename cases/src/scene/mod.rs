@@ -111,6 +111,10 @@ pub struct Scene {
     pub costs: BTreeMap<String, study::CostDeclaration>,
 }
 
+fn yes() -> bool {
+    true
+}
+
 fn both_tiers() -> Vec<Tier> {
     vec![Tier::Quick, Tier::Full]
 }
@@ -208,6 +212,14 @@ impl Default for Limits {
 }
 
 impl Scene {
+    /// Leaves out what is not enabled.
+    pub fn drop_disabled(&mut self) {
+        self.bodies.retain(|_, body| body.enabled);
+        self.ties.retain(|_, tie| tie.enabled);
+        self.supports.retain(|_, support| support.enabled);
+        self.loads.retain(|_, load| load.enabled);
+    }
+
     /// Values of all parameters.
     ///
     /// # Errors

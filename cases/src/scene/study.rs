@@ -48,7 +48,8 @@ pub struct ReferenceModel {
     pub about: String,
     /// Variants that make it out of the scene.
     pub variants: Vec<String>,
-    /// Refinement; three levels or more give the uncertainty (grid convergence index).
+    /// Refinement: three levels or more are extrapolated, with the grid convergence index as their
+    /// uncertainty; one level is taken as it is.
     pub levels: Levels,
     /// Order that theory gives.
     pub formal_order: f64,
