@@ -99,6 +99,8 @@ pub enum ReferenceKind {
     Yade,
     /// LAMMPS.
     Lammps,
+    /// An independent prototype: other code, same method.
+    Prototype,
     /// A measurement.
     Experiment,
     /// Our own last accepted value.

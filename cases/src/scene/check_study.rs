@@ -2,7 +2,7 @@
 
 use super::Scene;
 use super::check::{Checked, known, vector};
-use super::probe::{Probe, Read};
+use super::probe::Probe;
 use super::quantity::{Accept, Quantity};
 use super::study::{Claim, FamilyDeclaration, Levels, Seeds};
 use crate::error::Fault;
@@ -105,8 +105,8 @@ pub fn probe(scene: &Scene, name: &str, probe: &Probe, values: &Values) -> Check
 }
 
 fn check_exact(probe: &Probe, space: Space, key: &str) -> Checked {
-    let expected = if probe.read == Read::DisplacementError { space.dim() } else { 1 };
-    let missing = probe.read == Read::DisplacementError && probe.exact.is_empty();
+    let expected = if probe.read.is_error() { space.dim() } else { 1 };
+    let missing = probe.read.is_error() && probe.exact.is_empty();
     if missing || (!probe.exact.is_empty() && probe.exact.len() < expected) {
         let message = format!("expected {expected} exact components, found {}", probe.exact.len());
         return Err(Fault::new(format!("{key}.exact"), message, "give one expression per component"));

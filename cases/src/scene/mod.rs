@@ -5,6 +5,7 @@
 
 pub mod body;
 pub mod check;
+mod check_connection;
 mod check_study;
 pub mod connection;
 pub mod de;
