@@ -185,6 +185,9 @@ fn check_family(scene: &Scene, name: &str, family: &FamilyDeclaration) -> Checke
         };
         on_axis(family, axis_name, value, &format!("{like}.{axis_name}"))?;
     }
+    if let Some(axis) = &family.resolution {
+        known(axis, "axis", family.axes.keys(), &format!("{key}.resolution"))?;
+    }
     check_seeds(scene, &family.seeds, &format!("{key}.seeds"))?;
     for (blocks, tier) in [(&family.full, "full"), (&family.quick, "quick")] {
         for (i, block) in blocks.iter().enumerate() {
