@@ -31,7 +31,8 @@ fn main() -> ExitCode {
 
 /// What could not be measured is 4; everything else a user can mend is 2.
 fn exit_of(error: &anyhow::Error) -> Exit {
+    use seam_cases::error::Error::{Reference, Study};
     let unmeasured = error.downcast_ref::<results::Unmeasured>().is_some()
-        || matches!(error.downcast_ref(), Some(seam_cases::error::Error::Study { .. }));
+        || matches!(error.downcast_ref(), Some(Study { .. } | Reference { .. }));
     if unmeasured { Exit::Unmeasured } else { Exit::Usage }
 }
