@@ -1,6 +1,7 @@
 //! The `seam` command: words in, exit code out. All else is in the libraries.
 
 mod args;
+mod message;
 mod progress;
 mod provenance;
 mod results;
@@ -23,7 +24,7 @@ fn main() -> ExitCode {
         Verb::Report(words) => verbs::report(&words),
     };
     let exit = done.unwrap_or_else(|error| {
-        eprintln!("seam: {error:#}");
+        eprintln!("seam: {}", message::of(&error));
         exit_of(&error)
     });
     ExitCode::from(exit as u8)
