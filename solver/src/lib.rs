@@ -7,6 +7,7 @@
 pub mod check;
 pub mod coupling;
 pub mod dem;
+pub mod dynamics;
 pub mod error;
 pub mod fem;
 pub mod files;

@@ -151,16 +151,19 @@ fn assemble_stiffness(model: &Model, numbering: &Numbering, work: &mut Work) -> 
     Ok(SymmetricMatrix::from_triplets(numbering.len(), &triplets))
 }
 
-struct Constraints {
+/// Independent constraint rows of a model.
+pub(crate) struct Constraints {
     /// Rows kept, on all unknowns.
-    rows: Vec<Row>,
+    pub rows: Vec<Row>,
     /// The same on the free unknowns.
     reduced: Vec<Vec<(usize, f64)>>,
     rhs: Vec<f64>,
-    notes: Vec<String>,
+    /// Rows dropped, and why.
+    pub notes: Vec<String>,
 }
 
-fn constraints(
+/// Rows of all ties that the supports leave independent; `place` numbers the free unknowns.
+pub(crate) fn constraints(
     model: &Model,
     numbering: &Numbering,
     prescribed: &[Option<f64>],
