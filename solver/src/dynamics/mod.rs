@@ -1,8 +1,15 @@
 //! Motion in time: `M a + f_int(u) = f_ext(t) + Cᵀλ`, `C u = 0`.
 //!
 //! [`system`] is what all integrators share: lumped masses, supports, loads and constraint rows on
-//! the unknowns of a [`crate::model::Numbering`]. [`load`] scales supports and loads in time.
+//! the unknowns of a [`crate::model::Numbering`]. [`load`] scales supports and loads in time. [`explicit`] takes steps below
+//! the [`critical`] one, keeps the ties by an [`interface`] solve and a [`ledger`] of energies.
 
+pub mod critical;
+pub mod damping;
+pub mod explicit;
+pub mod forces;
+pub mod interface;
+pub mod ledger;
 pub mod load;
 pub mod system;
 
