@@ -8,7 +8,7 @@ use seam_solver::dem::network::{BondStiffness, Bonds, Network, Particles};
 use seam_solver::dynamics::State;
 use seam_solver::dynamics::damping::Damping;
 use seam_solver::dynamics::explicit::{Explicit, Options};
-use seam_solver::dynamics::forces::InternalForces;
+use seam_solver::dynamics::forces::{InternalForces, Rotations};
 use seam_solver::dynamics::load::LoadFactor;
 use seam_solver::dynamics::system::System;
 use seam_solver::dynamics::{critical, ledger::Ledger};
@@ -311,7 +311,7 @@ fn the_bound_is_safe_and_within_a_factor_of_two() {
         network.particles.mass.iter_mut().chain(&mut network.particles.inertia).for_each(|m| *m *= heavy);
         let bound = critical::bound(&model).unwrap();
         let system = System::new(&model).unwrap();
-        let forces = InternalForces::new(&model, &system.numbering).unwrap();
+        let forces = InternalForces::new(&model, &system.numbering, Rotations::Small).unwrap();
         let exact = critical::iterate(&system, &forces, 3000);
         assert!(bound.step_s <= exact && exact < 2.0 * bound.step_s, "{bound:?} {exact}");
         // The tied velocities agree at this contrast, or the run would have stopped.
@@ -320,5 +320,111 @@ fn the_bound_is_safe_and_within_a_factor_of_two() {
         let mut run = Explicit::new(&model, every(bound.step_s), &initial).unwrap();
         run.advance(2000).unwrap();
         assert!(run.observe().unwrap().ledger.closure() < 1e-10);
+    }
+}
+
+/// A free chain that spins three times and bends on the way: energy within O(Δt²), momenta kept, and the
+/// elements refuse to take part.
+#[test]
+fn a_spinning_chain_keeps_energy_to_second_order() {
+    let mut model = bar(6);
+    model.supports.clear();
+    let Part::Discrete { network, .. } = &mut model.parts[0] else { unreachable!("a bar of particles") };
+    for k in &mut network.bonds.stiffness {
+        k.kb = 1e-2;
+        k.ks = 12.0 * k.kb * 36.0;
+    }
+    let mut initial = at_rest(&model);
+    let spin = 0.4;
+    for p in 0..7 {
+        let x = p as f64 / 6.0 - 0.5;
+        initial.v[3 * p + 1] = spin * x + 0.05 * (6.0 * x).cos();
+        initial.v[3 * p + 2] = spin;
+    }
+    let bound = critical::bound(&model).unwrap().step_s;
+    let worst = |refinement: u64| {
+        let step_s = 0.5 * bound / refinement as f64;
+        let options = Options { step_s, rotations: Rotations::Finite, ..Options::default() };
+        let mut run = Explicit::new(&model, options, &initial).unwrap();
+        let (mut worst, mut turned) = (0.0f64, 0.0);
+        for _ in 0..100 {
+            run.advance((3.0 * std::f64::consts::TAU / spin / step_s / 100.0) as u64 + 1).unwrap();
+            let seen = run.observe().unwrap();
+            worst = worst.max((seen.ledger.energy() / seen.ledger.initial - 1.0).abs());
+            turned = seen.state.u[2];
+        }
+        assert!(turned > 3.0 * std::f64::consts::TAU, "{turned}");
+        worst
+    };
+    let (coarse, fine) = (worst(1), worst(2));
+    assert!(coarse < 1e-2 && coarse / fine > 3.0, "{coarse:e} {fine:e}");
+
+    let coupled = coupled(Method::Pointwise);
+    let step_s = critical::bound(&coupled).unwrap().step_s;
+    let options = Options { step_s, rotations: Rotations::Finite, ..Options::default() };
+    let refusal = Explicit::new(&coupled, options, &at_rest(&coupled)).err().unwrap().to_string();
+    assert!(refusal.contains("'left'") && refusal.contains("small strains"), "{refusal}");
+}
+
+mod restart {
+    use super::*;
+    use seam_solver::dynamics::checkpoint;
+
+    fn run(model: &Model, rotations: Rotations) -> Explicit {
+        let step_s = 0.9 * critical::bound(model).unwrap().step_s;
+        let damping = Damping::NonViscous { share: 0.1 };
+        let loads = LoadFactor::Ramp { start_s: 0.0, rise_s: 100.0 * step_s };
+        let options = Options { step_s, loads, damping, rotations, ..Options::default() };
+        Explicit::new(model, options, &at_rest(model)).unwrap()
+    }
+
+    /// Through a file and on: the same bits as without stopping, counters and ledger too.
+    #[test]
+    fn goes_on_bit_by_bit() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("run.checkpoint");
+        let mut chain = bar(5);
+        chain.supports.retain(|s| s.point == 0);
+        chain.loads.push(PointValue { part: 0, point: 5, component: 1, value: 1e-4 });
+        for (model, rotations) in [(coupled(Method::Mortar), Rotations::Small), (chain, Rotations::Finite)] {
+            let mut whole = run(&model, rotations);
+            whole.advance(120).unwrap();
+            checkpoint::write(&path, &model, &whole).unwrap();
+            let options = whole.options().clone();
+            let mut resumed = checkpoint::resume(&path, &model, options).unwrap();
+            whole.advance(130).unwrap();
+            resumed.advance(130).unwrap();
+            assert_eq!(whole.work(), resumed.work());
+            assert_eq!(whole.observe().unwrap(), resumed.observe().unwrap());
+            assert!(whole.u().iter().any(|u| *u != 0.0));
+        }
+    }
+
+    #[test]
+    fn of_another_model_or_a_broken_file_is_refused() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("run.checkpoint");
+        let mut model = coupled(Method::Mortar);
+        let whole = run(&model, Rotations::Small);
+        checkpoint::write(&path, &model, &whole).unwrap();
+        let refusal = |model: &Model, options: &Options| {
+            checkpoint::resume(&path, model, options.clone()).err().unwrap().to_string()
+        };
+        let options = whole.options();
+        let slower = Options { step_s: 0.5 * options.step_s, ..options.clone() };
+        assert!(refusal(&model, &slower).contains("another model or with other options"));
+        model.loads[0].value += 1e-9;
+        assert!(refusal(&model, options).contains("another model or with other options"));
+        model.loads[0].value -= 1e-9;
+        let mut bytes = std::fs::read(&path).unwrap();
+        bytes[200] ^= 1;
+        std::fs::write(&path, &bytes).unwrap();
+        assert!(refusal(&model, options).contains("damaged"));
+        std::fs::write(&path, &bytes[..60]).unwrap();
+        assert!(refusal(&model, options).contains("damaged"));
+        std::fs::write(&path, b"").unwrap();
+        assert!(refusal(&model, options).contains("no checkpoint"));
+        std::fs::remove_file(&path).unwrap();
+        assert!(refusal(&model, options).contains("run.checkpoint"));
     }
 }

@@ -1,12 +1,12 @@
 //! Central differences for a whole model, coupled by multipliers with equal steps.
 //!
-//! `v₊ = v₋ + Δt M⁻¹ (f_ext − K u_n + d)`, then the ties ([`super::interface`]), then `u_{n+1} = u_n + Δt v₊`.
+//! `v₊ = v₋ + Δt M⁻¹ (f_ext − f_int(u_n) + d)`, then the ties ([`super::interface`]), then `u_{n+1} = u_n + Δt v₊`.
 //! Velocities live at the half steps; the state at `t_n` has `v_n = ½(v₋ + v₊)`, `a_n = (v₊ − v₋)/Δt`.
 
 use super::State;
 use super::critical::{self, CriticalStep};
 use super::damping::Damping;
-use super::forces::InternalForces;
+use super::forces::{InternalForces, Rotations};
 use super::interface::Interface;
 use super::ledger::{Ledger, WorkDone};
 use super::load::LoadFactor;
@@ -26,6 +26,9 @@ pub struct Options {
     pub supports: LoadFactor,
     /// Damping.
     pub damping: Damping,
+    /// Small or finite rotations of particles. Finite ones start from unturned particles, `u` then holds the integral of
+    /// the spin, and the critical step is that of the undeformed network.
+    pub rotations: Rotations,
 }
 
 /// State, energies and gap at one time.
@@ -43,15 +46,15 @@ pub struct Observation {
 
 /// An explicit run.
 pub struct Explicit {
-    pub(super) options: Options,
+    options: Options,
     pub(super) motion: Motion,
     system: System,
-    forces: InternalForces,
+    pub(super) forces: InternalForces,
     interface: Interface,
     critical: CriticalStep,
     loaded: Vec<(usize, f64)>,
     held: Vec<(usize, f64)>,
-    work: Work,
+    pub(super) work: Work,
 }
 
 /// What a run carries from step to step.
@@ -75,7 +78,7 @@ pub(super) struct Motion {
 struct Kick {
     /// `v₊`.
     v: Vec<f64>,
-    /// `K u_n`.
+    /// `f_int(u_n)`.
     internal: Vec<f64>,
     /// Forces of the ties.
     ties: Vec<f64>,
@@ -89,8 +92,25 @@ impl Explicit {
     /// Prepares a run from `initial`: displacements and velocities at its time; its accelerations follow from the forces.
     ///
     /// # Errors
-    /// As [`System::new`]; a step beyond the critical one; loads that are undefined; a state that does not fit.
+    /// As [`System::new`]; a step beyond the critical one; loads that are undefined; a state that does not fit;
+    /// finite rotations of a model with elements or from a state that is already turned.
     pub fn new(model: &Model, options: Options, initial: &State) -> Result<Self> {
+        let motion = Motion {
+            start: initial.time,
+            step: 0,
+            u: initial.u.clone(),
+            v: initial.v.clone(),
+            done: WorkDone::default(),
+            initial: 0.0,
+        };
+        let mut run = Explicit::prepare(model, options, motion)?;
+        run.refuse_turned_start(model)?;
+        run.start()?;
+        Ok(run)
+    }
+
+    /// Everything but the first half step.
+    pub(super) fn prepare(model: &Model, options: Options, motion: Motion) -> Result<Self> {
         let system = System::new(model)?;
         options.loads.check("loads", f64::INFINITY)?;
         options.supports.check("supports", f64::INFINITY)?;
@@ -100,7 +120,7 @@ impl Explicit {
         critical.admit(options.step_s)?;
         let n = system.numbering.len();
         let finite = |x: &[f64]| x.len() == n && x.iter().all(|x| x.is_finite());
-        if !(finite(&initial.u) && finite(&initial.v) && initial.time.is_finite()) {
+        if !(finite(&motion.u) && finite(&motion.v) && motion.start.is_finite()) {
             return Err(Error::Solve {
                 message: format!(
                     "the initial state needs {n} finite displacements and velocities, and a finite time"
@@ -108,22 +128,28 @@ impl Explicit {
             });
         }
         let mut work = Work::default();
-        let forces = InternalForces::new(model, &system.numbering)?;
+        let forces = InternalForces::new(model, &system.numbering, options.rotations)?;
         let interface = Interface::new(&system, &mut work)?;
         let nonzero = |(i, f): (usize, &f64)| (*f != 0.0).then_some((i, *f));
         let loaded = system.load.iter().enumerate().filter_map(nonzero).collect();
         let held = system.prescribed.iter().enumerate().filter_map(|(i, p)| Some((i, (*p)?))).collect();
-        let motion = Motion {
-            start: initial.time,
-            step: 0,
-            u: initial.u.clone(),
-            v: initial.v.clone(),
-            done: WorkDone::default(),
-            initial: 0.0,
-        };
-        let mut run = Explicit { options, motion, system, forces, interface, critical, loaded, held, work };
-        run.start()?;
-        Ok(run)
+        Ok(Explicit { options, motion, system, forces, interface, critical, loaded, held, work })
+    }
+
+    fn refuse_turned_start(&self, model: &Model) -> Result<()> {
+        let numbering = &self.system.numbering;
+        let turned = |i: &usize| numbering.locate(*i).2 >= model.space.dim() && self.motion.u[*i] != 0.0;
+        match (self.options.rotations, (0..numbering.len()).find(turned)) {
+            (Rotations::Finite, Some(i)) => {
+                let (part, point, _) = numbering.locate(i);
+                let message = format!(
+                    "with finite rotations particle {point} of body '{}' starts turned; start from unturned particles",
+                    model.parts[part].name()
+                );
+                Err(Error::Solve { message })
+            }
+            _ => Ok(()),
+        }
     }
 
     /// Half a step back: `v₋ = 2 v₀ − v₊` with `v₊ = v₀ + (Δt/2) a₀`, so that `v₀` is met at second order.
@@ -157,6 +183,11 @@ impl Explicit {
     /// Masses, supports and rows.
     pub fn system(&self) -> &System {
         &self.system
+    }
+
+    /// How it is integrated.
+    pub fn options(&self) -> &Options {
+        &self.options
     }
 
     /// The safe bound on the step, damping included.
@@ -194,6 +225,7 @@ impl Explicit {
         let [before, after] = kick.power;
         self.motion.done += 0.5 * dt * (before + after);
         self.motion.u.iter_mut().zip(&kick.v).for_each(|(u, v)| *u += dt * v);
+        self.forces.turn(&kick.v, dt);
         self.motion.v = kick.v;
         self.motion.step += 1;
         self.work.steps += 1;
@@ -210,7 +242,7 @@ impl Explicit {
         let Motion { u, v: v_before, .. } = &self.motion;
         let pairs = || v_before.iter().zip(&kick.v);
         let kinetic = 0.5 * pairs().zip(&self.system.mass).map(|((a, b), m)| m * a * b).sum::<f64>();
-        let strain = 0.5 * u.iter().zip(&kick.internal).map(|(u, f)| u * f).sum::<f64>();
+        let strain = self.forces.energy(u, &kick.internal);
         let work = self.motion.done + 0.5 * dt * kick.power[0];
         Ok(Observation {
             ledger: Ledger { kinetic, strain, work, initial: self.motion.initial },

@@ -1,7 +1,8 @@
 //! Where the energy is, and which way it came.
 //!
 //! With forces `q_n` at the steps and velocities at the half steps the sums
-//! `T_n = ½ v₋ᵀ M v₊`, `W = Σ ½ (q_n + q_{n+1})·Δu` balance exactly for central differences: what does not is rounding.
+//! `T_n = ½ v₋ᵀ M v₊`, `W = Σ ½ (q_n + q_{n+1})·Δu` balance exactly for central differences of a linear system: what does
+//! not is rounding. Finite rotations add an oscillation of second order in the step.
 
 use std::ops::{Add, AddAssign, Mul};
 
@@ -52,7 +53,7 @@ impl Mul<WorkDone> for f64 {
 pub struct Ledger {
     /// `½ v₋ᵀ M v₊`.
     pub kinetic: f64,
-    /// `½ uᵀ f_int`.
+    /// `½ uᵀ f_int`, or the energy of bonds under finite rotations.
     pub strain: f64,
     /// Work since the start.
     pub work: WorkDone,

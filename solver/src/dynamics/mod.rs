@@ -2,8 +2,9 @@
 //!
 //! [`system`] is what all integrators share: lumped masses, supports, loads and constraint rows on
 //! the unknowns of a [`crate::model::Numbering`]. [`load`] scales supports and loads in time. [`explicit`] takes steps below
-//! the [`critical`] one, keeps the ties by an [`interface`] solve and a [`ledger`] of energies.
+//! the [`critical`] one, keeps the ties by an [`interface`] solve and a [`ledger`] of energies; a [`checkpoint`] lets it go on later.
 
+pub mod checkpoint;
 pub mod critical;
 pub mod damping;
 pub mod explicit;
