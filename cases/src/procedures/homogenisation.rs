@@ -31,7 +31,7 @@ pub fn run(setting: &Setting, result: &mut CaseResult) -> Result<()> {
                 unit: "1".to_owned(),
                 value,
                 reference: Some(reference),
-                kind: ReferenceKind::Regression,
+                kind: ReferenceKind::Prototype,
                 source: "Periodic homogenisation of 2000 spheres, rebuilt twice independently".to_owned(),
                 u_num: of_mean(scatter),
                 accepted: Some([reference * (1.0 - tolerance), reference * (1.0 + tolerance)]),

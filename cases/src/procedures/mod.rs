@@ -1,6 +1,6 @@
 //! What computes a case: statics of its scene, or a verification that needs no bodies.
 //!
-//! A new procedure is one file and one line of [`REGISTRY`].
+//! A new procedure is one file and one line of the registry.
 
 mod bond_matrix;
 mod homogenisation;

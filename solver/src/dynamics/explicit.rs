@@ -10,7 +10,8 @@ use super::forces::{InternalForces, Rotations};
 use super::interface::Interface;
 use super::ledger::{Ledger, WorkDone};
 use super::load::LoadFactor;
-use super::system::{System, row_value};
+use super::semidiscrete::row_product;
+use super::system::System;
 use crate::error::{Error, Result};
 use crate::model::Model;
 use crate::work::Work;
@@ -295,7 +296,7 @@ impl Explicit {
             WorkDone {
                 external: loads + moving,
                 damping: self.options.damping.power(drag.as_deref(), before, &v, w, system),
-                interface: -per_impulse * rows.map(|(row, l)| l * row_value(row, w)).sum::<f64>(),
+                interface: -per_impulse * rows.map(|(row, l)| l * row_product(&row.terms, w)).sum::<f64>(),
             }
         });
         Ok(Kick { v, internal, ties, supports, power })

@@ -3,7 +3,8 @@
 //! Prescribed unknowns count as infinitely heavy. `H = C M⁻¹ Cᵀ` is constant in small motion and is factorised once,
 //! scaled to a unit diagonal, so that light and heavy sides, displacements and rotations weigh alike.
 
-use super::system::{System, row_value};
+use super::semidiscrete::row_product;
+use super::system::System;
 use crate::error::{Error, Result};
 use crate::solve::sparse::{Factor, Ordering, SymmetricMatrix, Triplets};
 use crate::work::Work;
@@ -78,7 +79,7 @@ impl Interface {
         let mut mismatch = 0.0;
         for _ in 0..MOST_SOLVES {
             let mut scaled: Vec<f64> =
-                rows.iter().zip(&self.scale).map(|(row, s)| s * row_value(row, v)).collect();
+                rows.iter().zip(&self.scale).map(|(row, s)| s * row_product(&row.terms, v)).collect();
             factor.solve_in_place(&mut scaled);
             work.solves += 1;
             for ((row, s), (z, multiplier)) in
@@ -91,7 +92,7 @@ impl Interface {
                     v[i] -= self.inverse_mass[i] * c * change;
                 }
             }
-            mismatch = rows.iter().map(|row| row_value(row, v).abs()).fold(0.0, f64::max);
+            mismatch = rows.iter().map(|row| row_product(&row.terms, v).abs()).fold(0.0, f64::max);
             if mismatch <= bound {
                 return Ok(multipliers);
             }

@@ -1,6 +1,6 @@
-//! Motion in time: `M a + f_int(u) = f_ext(t) + Cᵀλ`, `C u = 0`.
+//! Motion in time: `M a + f_int(u) = f_ext(t) + Cᵀλ`, `C u = 0`, and the schemes that step it.
 //!
-//! [`system`] is what all integrators share: lumped masses, supports, loads and constraint rows on
+//! Explicit: [`system`] is what the schemes share: lumped masses, supports, loads and constraint rows on
 //! the unknowns of a [`crate::model::Numbering`]. [`load`] scales supports and loads in time. [`explicit`] takes steps below
 //! the [`critical`] one, keeps the ties by an [`interface`] solve and a [`ledger`] of energies; a [`checkpoint`] lets it go on later.
 
@@ -12,6 +12,10 @@ pub mod forces;
 pub mod interface;
 pub mod ledger;
 pub mod load;
+pub mod modes;
+pub mod newmark;
+pub mod quasi_static;
+pub mod semidiscrete;
 pub mod system;
 
 /// Motion at one time; all vectors in the order of the [`crate::model::Numbering`].

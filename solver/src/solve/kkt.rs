@@ -115,13 +115,34 @@ impl Kkt {
     /// # Errors
     /// A residual that refinement cannot bring below [`LARGEST_RESIDUAL`].
     pub fn solve(&self, f: &[f64], g: &[f64], work: &mut Work) -> Result<KktSolution> {
+        self.solve_beside(f, g, [&[], &[]], work)
+    }
+
+    /// As [`Kkt::solve`], where `f` and the solution are what is left of larger forces and motions that cancelled, as in a
+    /// time step near rest: residuals are judged beside these too (forces, then motions, on all unknowns; empty for none).
+    ///
+    /// # Errors
+    /// As [`Kkt::solve`].
+    pub fn solve_beside(
+        &self,
+        f: &[f64],
+        g: &[f64],
+        [forces, motions]: [&[f64]; 2],
+        work: &mut Work,
+    ) -> Result<KktSolution> {
         let (n, m) = (f.len(), g.len());
+        let largest = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0f64, |m, v| m.max(v.abs()));
+        let beside = [
+            largest(&mut forces.iter().zip(&self.unknown_scale).map(|(f, s)| f * s)),
+            // A row weighs at most the whole of a motion: unit rows.
+            largest(&mut motions.iter().zip(&self.unknown_scale).map(|(u, s)| u / s)),
+        ];
         let f: Vec<f64> = f.iter().zip(&self.unknown_scale).map(|(f, s)| f * s).collect();
         let g: Vec<f64> = g.iter().zip(&self.row_scale).map(|(g, s)| g * s).collect();
         let mut x = vec![0.0; n + m];
         let mut best = (f64::INFINITY, x.clone());
         for _ in 0..MOST_REFINEMENTS {
-            let (mut r, now) = self.residual(&x, &f, &g);
+            let (mut r, now) = self.residual(&x, &f, &g, beside);
             if !now.is_finite() {
                 return Err(Error::Solve {
                     message: "the solution is not finite; look for a mechanism".to_owned(),
@@ -154,12 +175,12 @@ impl Kkt {
 
     /// Residual of the true scaled system, and its size relative to the forces and displacements that it
     /// balances. Multipliers are no yardstick: they are large where rows are nearly dependent.
-    fn residual(&self, x: &[f64], f: &[f64], g: &[f64]) -> (Vec<f64>, f64) {
+    fn residual(&self, x: &[f64], f: &[f64], g: &[f64], beside: [f64; 2]) -> (Vec<f64>, f64) {
         let n = f.len();
         let mut internal = vec![0.0; n];
         self.stiffness.multiply_add(&x[..n], &mut internal);
-        let force = norm(&internal).max(norm(f));
-        let mut motion = norm(g);
+        let force = norm(&internal).max(norm(f)).max(beside[0]);
+        let mut motion = norm(g).max(beside[1]);
         let mut r: Vec<f64> = f.iter().zip(&internal).map(|(f, k)| f - k).chain(g.iter().copied()).collect();
         for (k, row) in self.rows.iter().enumerate() {
             for &(i, b) in row {

@@ -125,7 +125,11 @@ fn equilibrium(
 }
 
 /// Stiffness matrix of all parts on all unknowns.
-fn assemble_stiffness(model: &Model, numbering: &Numbering, work: &mut Work) -> Result<SymmetricMatrix> {
+pub(crate) fn assemble_stiffness(
+    model: &Model,
+    numbering: &Numbering,
+    work: &mut Work,
+) -> Result<SymmetricMatrix> {
     let mut triplets = Triplets::default();
     for (p, part) in model.parts.iter().enumerate() {
         let offset = numbering.offset(p);
@@ -151,18 +155,18 @@ fn assemble_stiffness(model: &Model, numbering: &Numbering, work: &mut Work) -> 
     Ok(SymmetricMatrix::from_triplets(numbering.len(), &triplets))
 }
 
-/// Independent constraint rows of a model.
 pub(crate) struct Constraints {
     /// Rows kept, on all unknowns.
     pub rows: Vec<Row>,
     /// The same on the free unknowns.
-    reduced: Vec<Vec<(usize, f64)>>,
-    rhs: Vec<f64>,
-    /// Rows dropped, and why.
+    pub reduced: Vec<Vec<(usize, f64)>>,
+    /// What each row has to give: what the prescribed unknowns leave.
+    pub rhs: Vec<f64>,
+    /// Why rows were dropped.
     pub notes: Vec<String>,
 }
 
-/// Rows of all ties that the supports leave independent; `place` numbers the free unknowns.
+/// Rows of the ties on the free unknowns, dependent ones dropped.
 pub(crate) fn constraints(
     model: &Model,
     numbering: &Numbering,
@@ -189,7 +193,7 @@ pub(crate) fn constraints(
 }
 
 /// Stiffness on the free unknowns, and the load less what the prescribed ones cause.
-fn eliminate(
+pub(crate) fn eliminate(
     stiffness: &SymmetricMatrix,
     f: &[f64],
     prescribed: &[Option<f64>],
@@ -210,7 +214,7 @@ fn eliminate(
 }
 
 /// For each free unknown the point it belongs to, and the positions of these points.
-fn points_of(model: &Model, numbering: &Numbering, free: &[usize]) -> (Vec<u32>, Vec<Vec3>) {
+pub(crate) fn points_of(model: &Model, numbering: &Numbering, free: &[usize]) -> (Vec<u32>, Vec<Vec3>) {
     let mut group = Vec::with_capacity(free.len());
     let mut positions = Vec::new();
     let mut last = None;
