@@ -30,6 +30,8 @@ pub struct Semidiscrete {
     pub gaps: Vec<f64>,
     /// The model's loads, to be scaled in time; in N and N m.
     pub load: Vec<f64>,
+    /// What each row ties, in words.
+    pub labels: Vec<String>,
     /// Constraint rows that were dropped, and why.
     pub notes: Vec<String>,
     /// Forces of the prescribed displacements: constant.
@@ -92,6 +94,7 @@ impl Semidiscrete {
             load: free.iter().map(|&i| load[i]).collect(),
             held_energy: 0.5 * dot(&alone, &internal),
             row_positions: tied.rows.iter().map(|r| r.position).collect(),
+            labels: tied.rows.into_iter().map(|r| r.label).collect(),
             rows: tied.reduced,
             gaps: tied.rhs,
             notes: tied.notes,
