@@ -10,6 +10,7 @@ pub mod bonding;
 pub mod calibration;
 pub mod clusters;
 pub mod grid;
+pub mod kernel;
 pub mod lattice;
 pub mod network;
 pub mod network_csv;
