@@ -114,6 +114,14 @@ pub enum Error {
         /// The rows it depends on.
         others: String,
     },
+    /// Elements that cannot be replaced by particles, or a criterion that cannot say which.
+    #[error("{what}: {message}")]
+    Switch {
+        /// The body, region or criterion.
+        what: String,
+        /// What is wrong and what to do.
+        message: String,
+    },
     /// A linear solve that failed or is not accurate enough to be used.
     #[error("linear solve: {message}")]
     Solve {
@@ -127,6 +135,20 @@ pub enum Error {
         what: String,
         /// What is wrong and what to do.
         message: String,
+    },
+    /// Inertia asked of something that has none.
+    #[error(
+        "body '{body}': {noun} {point} has mass or inertia {mass:.3e}; dynamics needs positive ones: give a positive density"
+    )]
+    Massless {
+        /// Name of the body.
+        body: String,
+        /// `node` or `particle`.
+        noun: &'static str,
+        /// Its index.
+        point: usize,
+        /// Its mass (kg) or inertia (kg m²).
+        mass: f64,
     },
     /// A time step at which explicit integration would blow up.
     #[error(

@@ -3,9 +3,9 @@
 //! M is lumped: row sums for elements, mass and inertia for particles. Prescribed unknowns are taken out; they keep
 //! their value for all time.
 
-use crate::error::{Error, Result};
-use crate::fem::loads::lumped_mass;
-use crate::model::{Model, Numbering, Part, PointValue};
+use super::{State, system};
+use crate::error::Result;
+use crate::model::{Model, Numbering, PointValue};
 use crate::solve::kkt::Layout;
 use crate::solve::sparse::{SymmetricMatrix, Triplets};
 use crate::solve::statics;
@@ -30,6 +30,8 @@ pub struct Semidiscrete {
     pub gaps: Vec<f64>,
     /// The model's loads, to be scaled in time; in N and N m.
     pub load: Vec<f64>,
+    /// What each row ties, in words.
+    pub labels: Vec<String>,
     /// Constraint rows that were dropped, and why.
     pub notes: Vec<String>,
     /// Forces of the prescribed displacements: constant.
@@ -85,13 +87,14 @@ impl Semidiscrete {
         for PointValue { part, point, component, value } in &model.loads {
             load[numbering.unknown(*part, *point, *component)] += value;
         }
-        let mass = lumped(model, &numbering)?;
+        let mass = system::mass(model)?;
         let (group, positions) = statics::points_of(model, &numbering, &free);
         Ok(Semidiscrete {
             mass: free.iter().map(|&i| mass[i]).collect(),
             load: free.iter().map(|&i| load[i]).collect(),
             held_energy: 0.5 * dot(&alone, &internal),
             row_positions: tied.rows.iter().map(|r| r.position).collect(),
+            labels: tied.rows.into_iter().map(|r| r.label).collect(),
             rows: tied.reduced,
             gaps: tied.rhs,
             notes: tied.notes,
@@ -161,17 +164,21 @@ impl Semidiscrete {
         gaps.fold(0.0, f64::max)
     }
 
-    /// Values on all unknowns from those on the free ones; prescribed ones get their displacement, or zero if `rates`.
-    pub fn expand(&self, values: &[f64], rates: bool) -> Vec<f64> {
-        let fixed = |p: &Option<f64>| if rates { 0.0 } else { p.unwrap_or(0.0) };
-        let mut full: Vec<f64> = self.prescribed.iter().map(fixed).collect();
-        self.free.iter().zip(values).for_each(|(&i, &v)| full[i] = v);
-        full
+    /// The motion of all unknowns; prescribed ones rest at their values.
+    pub fn state(&self, motion: &Motion) -> State {
+        let held: Vec<f64> = self.prescribed.iter().map(|p| p.unwrap_or(0.0)).collect();
+        let rest = vec![0.0; held.len()];
+        let mut state = State { time: motion.time, u: held, v: rest.clone(), a: rest };
+        for (k, &i) in self.free.iter().enumerate() {
+            (state.u[i], state.v[i], state.a[i]) = (motion.u[k], motion.v[k], motion.a[k]);
+        }
+        state
     }
 
-    /// Values on the free unknowns from those on all.
-    pub fn restrict(&self, full: &[f64]) -> Vec<f64> {
-        self.free.iter().map(|&i| full[i]).collect()
+    /// The motion of the free unknowns.
+    pub fn motion(&self, state: &State) -> Motion {
+        let of = |full: &[f64]| self.free.iter().map(|&i| full[i]).collect();
+        Motion { time: state.time, u: of(&state.u), v: of(&state.v), a: of(&state.a) }
     }
 }
 
@@ -188,40 +195,4 @@ pub(crate) fn diagonal(values: &[f64]) -> SymmetricMatrix {
     let mut triplets = Triplets::with_capacity(values.len());
     values.iter().enumerate().for_each(|(i, &m)| triplets.push(i, i, m));
     SymmetricMatrix::from_triplets(values.len(), &triplets)
-}
-
-/// Lumped mass of every unknown of a model, in kg and kg m².
-///
-/// # Errors
-/// An inverted element; a mass or inertia that is not positive and finite.
-pub fn lumped(model: &Model, numbering: &Numbering) -> Result<Vec<f64>> {
-    let dim = model.space.dim();
-    let mut mass = Vec::with_capacity(numbering.len());
-    for part in &model.parts {
-        let first = mass.len();
-        match part {
-            Part::Continuum(body) => {
-                mass.extend(lumped_mass(body)?.into_iter().flat_map(|m| std::iter::repeat_n(m, dim)));
-            }
-            Part::Discrete { network, .. } => {
-                let particles = &network.particles;
-                for (&m, &j) in particles.mass.iter().zip(&particles.inertia) {
-                    mass.extend(std::iter::repeat_n(m, dim));
-                    mass.extend(std::iter::repeat_n(j, model.space.rotations()));
-                }
-            }
-        }
-        if let Some(bad) = mass[first..].iter().position(|m| !(m.is_finite() && *m > 0.0)) {
-            return Err(Error::Geometry {
-                what: format!("body '{}'", part.name()),
-                message: format!(
-                    "{} {} has mass or inertia {}; give a positive density, and every node a cell",
-                    part.noun(),
-                    bad / part.dofs_per_point(),
-                    mass[first + bad]
-                ),
-            });
-        }
-    }
-    Ok(mass)
 }
