@@ -1,6 +1,7 @@
 //! The `seam` command: words in, exit code out. All else is in the libraries.
 
 mod args;
+mod message;
 mod progress;
 mod provenance;
 mod results;
@@ -23,7 +24,7 @@ fn main() -> ExitCode {
         Verb::Report(words) => verbs::report(&words),
     };
     let exit = done.unwrap_or_else(|error| {
-        eprintln!("seam: {error:#}");
+        eprintln!("seam: {}", message::of(&error));
         exit_of(&error)
     });
     ExitCode::from(exit as u8)
@@ -31,7 +32,8 @@ fn main() -> ExitCode {
 
 /// What could not be measured is 4; everything else a user can mend is 2.
 fn exit_of(error: &anyhow::Error) -> Exit {
+    use seam_cases::error::Error::{Reference, Study};
     let unmeasured = error.downcast_ref::<results::Unmeasured>().is_some()
-        || matches!(error.downcast_ref(), Some(seam_cases::error::Error::Study { .. }));
+        || matches!(error.downcast_ref(), Some(Study { .. } | Reference { .. }));
     if unmeasured { Exit::Unmeasured } else { Exit::Usage }
 }

@@ -52,7 +52,13 @@ pub fn read(file: &Path) -> Result<CaseResult> {
     Ok(serde_json::from_str(&text).map_err(unreadable)?)
 }
 
-/// Judges cases against their references and the recorded verdicts.
+/// Judges cases against their references and the recorded verdicts. Every reference must be whole: one that
+/// is altered makes the rest suspect too.
 pub fn judged(cases: &[CaseResult]) -> Result<Results> {
-    Ok(judge(cases, provenance::here(), &Recorded::project()?))
+    let mut provenance = provenance::here();
+    for reference in seam_references::all() {
+        let data = reference.open().map_err(|problem| Unmeasured(format!("reference {problem}")))?;
+        provenance.references.insert(reference.id(), data.provenance.csv_sha256.as_str().to_owned());
+    }
+    Ok(judge(cases, provenance, &Recorded::project()?))
 }

@@ -2,7 +2,7 @@
 
 use crate::args::{Running, Tier};
 use crate::progress::Progress;
-use crate::results;
+use crate::{message, results};
 use anyhow::{Result, bail};
 use rayon::prelude::*;
 use seam_cases::file::SceneFile;
@@ -61,7 +61,7 @@ pub fn run(files: &[SceneFile], out: &Path, running: &Running) -> Result<()> {
     progress.finish();
     let mut failed = failed.into_iter();
     let Some(first) = failed.next() else { return Ok(()) };
-    failed.for_each(|error| eprintln!("seam: {error:#}"));
+    failed.for_each(|error| eprintln!("seam: {}", message::of(&error)));
     Err(first)
 }
 

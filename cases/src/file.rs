@@ -50,7 +50,8 @@ impl SceneFile {
             text: overrides::apply(text, changes)?,
             overrides: changes.iter().map(Override::text).collect(),
         };
-        let scene = source.parse()?;
+        let mut scene = source.parse()?;
+        scene.drop_disabled();
         let values = scene.values().map_err(|fault| source.error(fault))?;
         check::check(&scene, &values).map_err(|fault| source.error(fault))?;
         Ok(Self { scene, values, folder, source })

@@ -99,6 +99,8 @@ pub enum ReferenceKind {
     Yade,
     /// LAMMPS.
     Lammps,
+    /// An independent prototype: other code, same method.
+    Prototype,
     /// A measurement.
     Experiment,
     /// Our own last accepted value.
@@ -215,7 +217,7 @@ pub struct Family {
     pub main_reading: String,
     /// Axes of the family: name and the values it takes, as text.
     pub axes: BTreeMap<String, Vec<String>>,
-    /// Settings of the paper-like member.
+    /// Settings of the paper-like member, without the axis that sets the number of particles.
     pub paper_like: BTreeMap<String, String>,
     /// The members that were run.
     pub members: Vec<Member>,

@@ -51,7 +51,11 @@ fn the_catalogue_reads() {
     assert!(list.iter().any(|e| e.id == "clamped-beam-rotation"));
     for entry in list {
         let page = catalogue::page(&entry.id).unwrap();
-        assert!(page.starts_with("# "), "the page of {} has no heading", entry.id);
+        assert!(
+            page.starts_with("# ") && page.contains(&format!("`seam run {}`", entry.id)),
+            "the page of {} lacks its heading or its command",
+            entry.id
+        );
     }
 }
 

@@ -35,7 +35,7 @@ fn judge_case(case: &CaseResult, recorded: &Recorded) -> CaseJudgement {
             })
             .collect(),
         curves: case.curves.iter().flat_map(judge_curves).collect(),
-        claims: case.families.iter().map(|f| judge_claim(case, f, recorded)).collect(),
+        claims: claims_in_order(case, recorded),
         work: case.work,
         recorded_work: recorded.work(&case.tier, &case.id, &case.scene_hash),
         seconds: case.seconds,
@@ -129,6 +129,13 @@ fn too_short(c: &CurveComparison) -> String {
         100.0 * c.coverage,
         100.0 * LEAST_COVERAGE
     )
+}
+
+/// The claims under test before our own, which answer them.
+fn claims_in_order(case: &CaseResult, recorded: &Recorded) -> Vec<ClaimResult> {
+    let mut claims: Vec<ClaimResult> = case.families.iter().map(|f| judge_claim(case, f, recorded)).collect();
+    claims.sort_by_key(|claim| claim.own);
+    claims
 }
 
 fn judge_claim(case: &CaseResult, family: &Family, recorded: &Recorded) -> ClaimResult {

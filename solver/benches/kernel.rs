@@ -8,6 +8,8 @@ use seam_solver::dem::arrangement::Matter;
 use seam_solver::dem::block::Block;
 use seam_solver::dem::bond::BondMaterial;
 use seam_solver::dem::bonding::{BondRecipe, bond_network};
+use seam_solver::dem::corotational::Corotational;
+use seam_solver::dem::kernel::Kernel;
 use seam_solver::dem::kernel::locality::{order, renumber};
 use seam_solver::dem::kernel::vibration::Vibration;
 use seam_solver::dem::lattice::{LatticeKind, lattice};
@@ -76,5 +78,27 @@ fn bond_updates(c: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, bond_updates);
+/// Forces alone, small against finite rotations on the same network and one thread: finite ones may cost three times as much.
+fn finite_rotations(c: &mut Criterion) {
+    let mut group = c.benchmark_group("forces");
+    group.sample_size(20);
+    let network = network(13);
+    let n = 6 * network.particles.len();
+    let u: Vec<f64> = (0..n).map(|i| 1e-4 * (0.1 * i as f64).sin()).collect();
+    let mut f = vec![0.0; n];
+    group.throughput(Throughput::Elements(network.bonds.len() as u64));
+    let small = Kernel::new(&network, "bar").expect("a network");
+    group.bench_function("small", |b| b.iter(|| small.add_internal(black_box(&u), &mut f)));
+    let mut finite = Corotational::new(&network, "bar").expect("a network");
+    group.bench_function("finite", |b| {
+        b.iter(|| {
+            // Turning the particles is part of the price.
+            finite.turn(&u, 1e-3);
+            finite.add_internal(black_box(&u), &mut f);
+        });
+    });
+    group.finish();
+}
+
+criterion_group!(benches, bond_updates, finite_rotations);
 criterion_main!(benches);

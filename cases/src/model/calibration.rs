@@ -7,8 +7,10 @@ use seam_solver::dem::calibration::homogenisation::homogenise;
 use seam_solver::dem::calibration::isotropy::Moduli;
 use seam_solver::dem::calibration::search::{CalibrationRequest, Reading, calibrate};
 use seam_solver::dem::calibration::specimen::Specimen;
+use seam_solver::dem::calibration::stretched;
 use seam_solver::dem::lattice::LatticeKind;
 use seam_solver::dem::packing::PackingRecipe;
+use seam_solver::dem::section::Section;
 use seam_solver::dem::skin::Skin;
 use seam_solver::error::{Error, Result};
 use seam_solver::fem::elasticity::{Elasticity, Hypothesis};
@@ -43,7 +45,8 @@ pub struct Unit {
     pub stretch: [f64; 3],
 }
 
-/// Bonds of a lattice, measured on one period of it, stretched as in the body, along x.
+/// Bonds of a lattice, stretched as in the body: r̃ in closed form, E_μ measured along x on one period. Where r̃ is given or
+/// the section is not round, what is missing is searched on the same period.
 ///
 /// # Errors
 /// Constants the lattice cannot have.
@@ -51,6 +54,24 @@ pub fn lattice(unit: Unit, target: &Target, given: &BondRecipe, both: bool) -> R
     let key = format!("{unit:?} {target:?} {given:?} {both}");
     remembered(key, || {
         let matter = Matter { density: 1.0, thickness_m: target.thickness_m };
+        if let (true, Section::Uniform { .. }) = (both, given.section) {
+            let wanted = Moduli::of(&target.elasticity, target.hypothesis);
+            let Unit { kind, spacing, stretch } = unit;
+            let mut work = Work::default();
+            let found = stretched::calibrate(
+                kind,
+                spacing,
+                stretch,
+                matter,
+                wanted,
+                given.material.poisson,
+                &mut work,
+            )?;
+            let mut bond = *given;
+            bond.section = given.section.with_ratio(found.radius_ratio);
+            bond.material.young_pa = found.bond_young_pa;
+            return Ok(bond);
+        }
         let specimens = [Specimen::lattice_cell(unit.kind, unit.spacing, unit.stretch, matter)?];
         find(&specimens, Reading::AlongX, target, given, both)
     })

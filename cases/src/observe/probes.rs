@@ -46,7 +46,7 @@ impl Observer<'_> {
     fn read(&self) -> Result<Reading> {
         match (self.probe.read, &self.probe.point, &self.probe.line) {
             (Read::StrainEnergy, ..) => Ok(Reading::Scalar(self.solution.energy)),
-            (Read::DisplacementError, ..) => self.displacement_error().map(Reading::Scalar),
+            (read, ..) if read.is_error() => self.displacement_error().map(Reading::Scalar),
             (_, Some(point), _) => {
                 let x = self.point(point, "point")?;
                 self.value(x).map(Reading::Scalar)
@@ -107,9 +107,10 @@ impl Observer<'_> {
             Read::SectionRotation => section::rotation(self.field, x.x).ok_or_else(|| {
                 self.error(format!("no section at x = {}", x.x), "move the line into the bodies")
             }),
-            Read::SecantRotation | Read::DisplacementError | Read::StrainEnergy => {
-                Err(self.error("it is not read at a point", "give `line`, or neither"))
-            }
+            Read::SecantRotation
+            | Read::DisplacementError
+            | Read::DisplacementErrorRms
+            | Read::StrainEnergy => Err(self.error("it is not read at a point", "give `line`, or neither")),
         }
     }
 
@@ -131,10 +132,13 @@ impl Observer<'_> {
         Ok(curve)
     }
 
-    /// Largest `|u − u_exact|` over all nodes and particles, relative to the largest `|u_exact|`.
+    /// Distance from the exact displacement over all nodes and particles, as a share of it: in the largest value or
+    /// in the root of the sum of squares.
     fn displacement_error(&self) -> Result<f64> {
         let dim = self.field.space.dim();
-        let (mut miss, mut size) = (0.0f64, 0.0f64);
+        let (mut miss, mut size) = (0.0, 0.0);
+        let rms = self.probe.read == Read::DisplacementErrorRms;
+        let grow = |sum: f64, d: f64| if rms { sum.hypot(d) } else { nan_max(sum, d) };
         for part in &self.field.parts {
             for (&x, u) in part.part.positions().iter().zip(&part.displacement) {
                 let mut exact = Vec3::zeros();
@@ -144,8 +148,8 @@ impl Observer<'_> {
                     exact[c] =
                         number.at(x, &self.file.values, &key).map_err(|fault| self.file.error(fault))?;
                 }
-                miss = nan_max(miss, (u - exact).norm());
-                size = size.max(exact.norm());
+                miss = grow(miss, (u - exact).norm());
+                size = grow(size, exact.norm());
             }
         }
         if size == 0.0 {

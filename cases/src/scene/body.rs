@@ -13,6 +13,9 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Body {
+    /// Whether it takes part; a variant can leave it out.
+    #[serde(default = "super::yes")]
+    pub enabled: bool,
     /// How it is computed.
     pub method: Method,
     /// Name of its material.

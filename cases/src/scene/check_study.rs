@@ -2,7 +2,7 @@
 
 use super::Scene;
 use super::check::{Checked, known, vector};
-use super::probe::{Probe, Read};
+use super::probe::Probe;
 use super::quantity::{Accept, Quantity};
 use super::study::{Claim, FamilyDeclaration, Levels, Seeds};
 use crate::error::Fault;
@@ -105,8 +105,8 @@ pub fn probe(scene: &Scene, name: &str, probe: &Probe, values: &Values) -> Check
 }
 
 fn check_exact(probe: &Probe, space: Space, key: &str) -> Checked {
-    let expected = if probe.read == Read::DisplacementError { space.dim() } else { 1 };
-    let missing = probe.read == Read::DisplacementError && probe.exact.is_empty();
+    let expected = if probe.read.is_error() { space.dim() } else { 1 };
+    let missing = probe.read.is_error() && probe.exact.is_empty();
     if missing || (!probe.exact.is_empty() && probe.exact.len() < expected) {
         let message = format!("expected {expected} exact components, found {}", probe.exact.len());
         return Err(Fault::new(format!("{key}.exact"), message, "give one expression per component"));
@@ -120,6 +120,7 @@ fn check_quantity(scene: &Scene, name: &str, quantity: &Quantity, values: &Value
         return Err(Fault::new(key, "the procedure brings its own quantities", "remove the table"));
     }
     known(&quantity.probe, "probe", scene.probes.keys(), &format!("{key}.probe"))?;
+    variants(scene, &quantity.variants, &format!("{key}.variants"))?;
     let curve = scene.probes[&quantity.probe].line.is_some();
     if curve != quantity.norm.is_some() {
         let mend = "a curve needs `norm` to become a number, a scalar has none";
@@ -183,6 +184,9 @@ fn check_family(scene: &Scene, name: &str, family: &FamilyDeclaration) -> Checke
             return Err(Fault::new(like, message, "name one value of every axis"));
         };
         on_axis(family, axis_name, value, &format!("{like}.{axis_name}"))?;
+    }
+    if let Some(axis) = &family.resolution {
+        known(axis, "axis", family.axes.keys(), &format!("{key}.resolution"))?;
     }
     check_seeds(scene, &family.seeds, &format!("{key}.seeds"))?;
     for (blocks, tier) in [(&family.full, "full"), (&family.quick, "quick")] {

@@ -30,6 +30,9 @@ pub struct Set {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Tie {
+    /// Whether it takes part; a variant can leave it out.
+    #[serde(default = "super::yes")]
+    pub enabled: bool,
     /// The two faces, as `"body.boundary"`.
     pub faces: [String; 2],
     /// Node by node, or averaged.
@@ -71,6 +74,9 @@ pub enum Multipliers {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Support {
+    /// Whether it takes part; a variant can leave it out.
+    #[serde(default = "super::yes")]
+    pub enabled: bool,
     /// Where: `"body.boundary"` or a set.
     pub on: String,
     /// Displacement along x, in m.
@@ -111,6 +117,9 @@ impl Support {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Load {
+    /// Whether it takes part; a variant can leave it out.
+    #[serde(default = "super::yes")]
+    pub enabled: bool,
     /// Where: `"body.boundary"`, or a set for a total force.
     pub on: String,
     /// Resultant, in N, spread evenly over the boundary; over a set, in equal shares.

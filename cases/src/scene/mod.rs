@@ -1,10 +1,11 @@
 //! The scene file: a case as a page of text.
 //!
-//! One file per element of the format. A scene is read by [`crate::source::SceneFile`], which knows
+//! One file per element of the format. A scene is read by [`crate::file::SceneFile`], which knows
 //! where every key stands; the types here know nothing of files.
 
 pub mod body;
 pub mod check;
+mod check_connection;
 mod check_study;
 pub mod connection;
 pub mod de;
@@ -111,6 +112,10 @@ pub struct Scene {
     pub costs: BTreeMap<String, study::CostDeclaration>,
 }
 
+fn yes() -> bool {
+    true
+}
+
 fn both_tiers() -> Vec<Tier> {
     vec![Tier::Quick, Tier::Full]
 }
@@ -208,6 +213,14 @@ impl Default for Limits {
 }
 
 impl Scene {
+    /// Leaves out what is not enabled.
+    pub fn drop_disabled(&mut self) {
+        self.bodies.retain(|_, body| body.enabled);
+        self.ties.retain(|_, tie| tie.enabled);
+        self.supports.retain(|_, support| support.enabled);
+        self.loads.retain(|_, load| load.enabled);
+    }
+
     /// Values of all parameters.
     ///
     /// # Errors

@@ -50,6 +50,8 @@ pub enum Read {
     SectionRotation,
     /// Largest `|u − u_exact|` over nodes and particles, relative to the largest `|u_exact|`.
     DisplacementError,
+    /// `√Σ|u − u_exact|² / √Σ|u_exact|²` over nodes and particles.
+    DisplacementErrorRms,
     /// Elastic energy, in J.
     StrainEnergy,
 }
@@ -61,14 +63,19 @@ impl Read {
             Self::Ux | Self::Uy | Self::Uz => "m",
             Self::Sxx | Self::Syy | Self::Sxy => "Pa",
             Self::SecantRotation | Self::SectionRotation => "rad",
-            Self::DisplacementError => "1",
+            Self::DisplacementError | Self::DisplacementErrorRms => "1",
             Self::StrainEnergy => "J",
         }
     }
 
     /// Whether it needs neither point nor line.
     pub fn is_global(self) -> bool {
-        matches!(self, Self::DisplacementError | Self::StrainEnergy)
+        self.is_error() || self == Self::StrainEnergy
+    }
+
+    /// Whether it is the distance from an exact displacement.
+    pub fn is_error(self) -> bool {
+        matches!(self, Self::DisplacementError | Self::DisplacementErrorRms)
     }
 
     /// Whether it is defined along a line only.

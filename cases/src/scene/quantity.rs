@@ -16,6 +16,9 @@ pub struct Quantity {
     pub unit: Option<String>,
     /// Name of the probe.
     pub probe: String,
+    /// Variants of the scene it is read off; the scene itself if there are none.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub variants: Vec<String>,
     /// Curves only: how its distance from the reference model is measured.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub norm: Option<Norm>,

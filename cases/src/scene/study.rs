@@ -48,7 +48,8 @@ pub struct ReferenceModel {
     pub about: String,
     /// Variants that make it out of the scene.
     pub variants: Vec<String>,
-    /// Refinement; three levels or more give the uncertainty (grid convergence index).
+    /// Refinement: three levels or more are extrapolated, with the grid convergence index as their
+    /// uncertainty; one level is taken as it is.
     pub levels: Levels,
     /// Order that theory gives.
     pub formal_order: f64,
@@ -63,6 +64,10 @@ pub struct FamilyDeclaration {
     /// One value of every axis: the setting a paper most likely used, and the value of each axis
     /// that a block does not mention.
     pub paper_like: BTreeMap<String, Value>,
+    /// The axis that sets the number of particles: what the paper-like setting is looked at over, so that
+    /// "at the same cost" has a number.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub resolution: Option<String>,
     /// Blocks of the full tier: all combinations of the listed values; members that occur twice run once.
     pub full: Vec<BTreeMap<String, Vec<Value>>>,
     /// Blocks of the quick tier: a subset of the full ones.

@@ -52,7 +52,12 @@ fn answer(
         readings: claim.readings.iter().map(|(name, r)| (name.clone(), r.about.clone())).collect(),
         main_reading: claim.main_reading.clone(),
         axes: declared.axes.iter().map(axis).collect(),
-        paper_like: declared.paper_like.iter().map(|(name, value)| (name.clone(), label(value))).collect(),
+        paper_like: declared
+            .paper_like
+            .iter()
+            .filter(|(name, _)| declared.resolution.as_ref() != Some(name))
+            .map(|(name, value)| (name.clone(), label(value)))
+            .collect(),
         members: members.iter().map(own_readings).collect(),
         complete: study.tier == Tier::Full,
         no_more_particles_than: claim.no_more_particles_than.clone(),

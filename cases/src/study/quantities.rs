@@ -2,7 +2,7 @@
 
 use super::Study;
 use super::convergence::Refined;
-use super::evaluate::{Solved, inside};
+use super::evaluate::{self, Solved, inside};
 use crate::error::Result;
 use crate::result::{Observation, ReferenceKind};
 use crate::scene::number::Number;
@@ -11,8 +11,18 @@ use std::collections::BTreeMap;
 
 /// All quantities of the scene.
 pub fn all(study: &Study, solved: &Solved, refined: &BTreeMap<String, Refined>) -> Result<Vec<Observation>> {
-    let quantities = study.file.scene.quantities.iter();
-    quantities.map(|(name, quantity)| one(study, name, quantity, solved, refined.get(name))).collect()
+    let mut all = Vec::new();
+    for (name, quantity) in &study.file.scene.quantities {
+        let refined = refined.get(name);
+        all.push(if quantity.variants.is_empty() {
+            one(study, name, quantity, solved, refined)?
+        } else {
+            let file = study.file.with(&study.variants(&quantity.variants))?;
+            let solved = evaluate::solve(&file, study.tally)?;
+            one(&Study { file: &file, ..*study }, name, quantity, &solved, refined)?
+        });
+    }
+    Ok(all)
 }
 
 fn one(

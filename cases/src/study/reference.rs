@@ -63,9 +63,13 @@ fn compute(base: &SceneFile, declared: &ReferenceModel, tally: &Tally) -> Result
         readings.push(evaluate::solve(&file, tally)?.readings);
         sizes.push(resolution(value));
     }
+    if let [only] = readings.as_slice() {
+        return Ok(as_it_is(declared, only));
+    }
     let sizes: Option<Vec<f64>> = sizes.into_iter().collect();
     let (Some(sizes), [.., _, _, _]) = (sizes, readings.as_slice()) else {
-        let message = "reference.levels needs three numbers, cells from coarse to fine".to_owned();
+        let message =
+            "reference.levels needs one value, or three numbers of cells from coarse to fine".to_owned();
         return Err(Error::Study { case: base.scene.id.clone(), message });
     };
     let last = sizes.len() - 3;
@@ -93,6 +97,23 @@ fn compute(base: &SceneFile, declared: &ReferenceModel, tally: &Tally) -> Result
         }
     }
     Ok(reference)
+}
+
+/// One level: the same mesh, compared as it is.
+fn as_it_is(declared: &ReferenceModel, readings: &Readings) -> Reference {
+    let mut reference = Reference { about: declared.about.clone(), ..Reference::default() };
+    for (probe, reading) in readings.iter() {
+        match reading {
+            Reading::Scalar(value) => {
+                let estimate = Estimate { value: *value, order: None, u: 0.0 };
+                reference.scalars.insert(probe.clone(), estimate);
+            }
+            Reading::Curve(curve) => {
+                reference.curves.insert(probe.clone(), (curve.clone(), 0.0));
+            }
+        }
+    }
+    reference
 }
 
 /// Extrapolates each station with one order, observed in the largest differences.

@@ -21,6 +21,13 @@ pub(super) struct Claim {
     scatter: Option<Figure>,
 }
 
+impl Claim {
+    /// The figure of the claim, named after it.
+    pub(super) fn figure(&self) -> Option<(String, &Figure)> {
+        Some((self.id.clone(), self.scatter.as_ref()?))
+    }
+}
+
 #[derive(Serialize)]
 struct ReadingRow {
     meaning: String,

@@ -4,6 +4,7 @@ mod claim;
 mod prose;
 mod view;
 
+use crate::plots::Figure;
 use crate::results::{Results, ResultsError, write_whole};
 use minijinja::value::Serde;
 use minijinja::{Environment, context};
@@ -17,12 +18,23 @@ const MACROS: &str = include_str!("../../templates/macros.html");
 const STYLE: &str = include_str!("../../templates/style.css");
 const SCRIPT: &str = include_str!("../../templates/script.js");
 
-/// Writes `report.html` into a folder, whole or not at all.
+/// Writes `report.html` into a folder, whole or not at all, and every figure of it as a file of its own into
+/// `figures/`.
 ///
 /// # Errors
-/// The file cannot be written.
+/// A file cannot be written.
 pub fn write_report(results: &Results, cases: &[CaseResult], folder: &Path) -> Result<(), ResultsError> {
+    for (name, figure) in view::page(results, cases).figures() {
+        write_whole(&folder.join("figures").join(format!("{name}.svg")), &standalone(figure))?;
+    }
     write_whole(&folder.join("report.html"), &page(results, cases)?)
+}
+
+/// A figure that brings the style of the page with it, in light and in dark.
+fn standalone(figure: &Figure) -> String {
+    let style =
+        format!("<style>{STYLE} svg {{ font-family: sans-serif; background: var(--paper); }}</style>");
+    figure.svg.replacen("<title>", &format!("{style}<title>"), 1)
 }
 
 /// The page. Judged and measured cases are joined by their id; a judged case whose measurements are not

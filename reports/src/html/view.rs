@@ -80,6 +80,33 @@ struct Case {
     notes: Vec<String>,
 }
 
+impl Page {
+    /// Every figure of the page with a name for its file, in the order of the page.
+    pub(super) fn figures(&self) -> impl Iterator<Item = (String, &Figure)> {
+        let claims = self.claims.iter().filter_map(Claim::figure);
+        let totals = self
+            .bias
+            .iter()
+            .chain(self.budgets.iter().map(|b| &b.figure))
+            .chain(&self.costs)
+            .chain(&self.second_costs);
+        let cases = self.cases.iter().flat_map(|c| {
+            c.pictures
+                .iter()
+                .chain(&c.figures)
+                .map(|figure| (format!("{}-{}", c.judged.id, slug(&figure.title)), figure))
+        });
+        claims.chain(totals.map(|figure| (slug(&figure.title), figure))).chain(cases)
+    }
+}
+
+/// A caption as the name of a file.
+fn slug(title: &str) -> String {
+    let plain: String =
+        title.chars().map(|c| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '-' }).collect();
+    plain.split('-').filter(|word| !word.is_empty()).collect::<Vec<_>>().join("-")
+}
+
 /// Puts results and the measurements they came from into words and figures.
 pub(super) fn page(results: &Results, cases: &[CaseResult]) -> Page {
     let measured = |id: &str| cases.iter().find(|c| c.id == id);

@@ -45,7 +45,7 @@ pub fn work_precision(diagram: &CostDiagram, cost: Cost) -> Option<Figure> {
     let runs = || diagram.settings.iter().flat_map(|s| &s.points).filter(|p| p.error.is_some());
     let x = Axis::over(cost.label(), true, runs().map(|p| cost.of(p)))?;
     let errors = runs().filter_map(|p| p.error).map(|e| 100.0 * e);
-    let y = Axis::over(&diagram.error_label, true, errors.chain([100.0 * TARGET]))?;
+    let y = Axis::over("error (%)", true, errors.chain([100.0 * TARGET]))?;
     let target = x.range.map(|x| [x, 100.0 * TARGET]).to_vec();
     let mut layers = vec![Layer::Line { ink: Ink::Bound, points: target }];
     let mut legend = vec![LegendEntry::line(Ink::Bound, percent(TARGET))];
@@ -63,7 +63,12 @@ pub fn work_precision(diagram: &CostDiagram, cost: Cost) -> Option<Figure> {
     };
     let description = format!("{} over {}", diagram.error_label, cost.label());
     let chart = Chart { title: title.clone(), description, x, y, layers, height: HEIGHT, left: LEFT };
-    Some(Figure { title, svg: chart.svg(), legend, note: cheapest(diagram, cost) })
+    Some(Figure {
+        title,
+        svg: chart.svg(),
+        legend,
+        note: format!("{} Error: {}.", cheapest(diagram, cost), diagram.error_label),
+    })
 }
 
 /// The runs of a setting, as pieces without a failed run between them.

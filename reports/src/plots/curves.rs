@@ -20,12 +20,14 @@ pub fn curves(plot: &Plot) -> Option<Figure> {
         legend.push(LegendEntry::area(Ink::Band, format!("reference ± {width}")));
     }
     let mut models = 0;
+    let mut references = [Ink::Reference].into_iter();
     for series in all() {
         let points = points(series);
         match series.role {
             Role::Reference => {
-                legend.push(LegendEntry::line(Ink::Reference, &series.name));
-                layers.push(Layer::Line { ink: Ink::Reference, points });
+                let ink = references.next().unwrap_or(Ink::Theory);
+                legend.push(LegendEntry::line(ink, &series.name));
+                layers.push(Layer::Line { ink, points });
             }
             Role::Model => {
                 let ink = Ink::series(models);

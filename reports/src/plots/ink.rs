@@ -13,6 +13,8 @@ pub enum Ink {
     Grid,
     /// The reference: dashed.
     Reference,
+    /// A second reference beside the first: dotted.
+    Theory,
     /// Data: dots.
     Data,
     /// A tolerance band.
@@ -36,11 +38,12 @@ pub enum Ink {
 }
 
 /// Every ink, so that colours can be turned back into classes.
-const ALL: [Ink; 19] = [
+const ALL: [Ink; 20] = [
     Ink::Text,
     Ink::Axis,
     Ink::Grid,
     Ink::Reference,
+    Ink::Theory,
     Ink::Data,
     Ink::Band,
     Ink::Zone,
@@ -71,6 +74,7 @@ impl Ink {
             Ink::Axis => "ink-axis",
             Ink::Grid => "ink-grid",
             Ink::Reference => "ink-reference",
+            Ink::Theory => "ink-theory",
             Ink::Data => "ink-data",
             Ink::Band => "ink-band",
             Ink::Zone => "ink-zone",

@@ -109,6 +109,7 @@ pub(crate) fn kind_name(q: &QuantityResult) -> &'static str {
         Kind::Yade => "yade",
         Kind::Lammps => "lammps",
         Kind::Experiment => "experiment",
+        Kind::Prototype => "prototype",
         Kind::Regression => "regression",
     }
 }

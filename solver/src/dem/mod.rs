@@ -9,6 +9,7 @@ pub mod bond;
 pub mod bonding;
 pub mod calibration;
 pub mod clusters;
+pub mod corotational;
 pub mod grid;
 pub mod kernel;
 pub mod lattice;

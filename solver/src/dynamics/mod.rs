@@ -1,10 +1,18 @@
-//! Motion in time: `M a + f_int(u) = f_ext(t) + Cᵀλ`, `C u = 0`.
+//! Motion in time: `M a + f_int(u) = f_ext(t) + Cᵀλ`, `C u = 0`, and the schemes that step it.
 //!
-//! [`system`] is what all integrators share: lumped masses, supports, loads and constraint rows on
-//! the unknowns of a [`crate::model::Numbering`]. [`load`] scales supports and loads in time.
-//! [`semidiscrete`] has the matrices besides, on the free unknowns: for implicit steps ([`newmark`]), two rates ([`multirate`]),
+//! Explicit: [`system`] is what the schemes share: lumped masses, supports, loads and constraint rows on
+//! the unknowns of a [`crate::model::Numbering`]. [`load`] scales supports and loads in time. [`explicit`] takes steps below
+//! the [`critical`] one, keeps the ties by an [`interface`] solve and a [`ledger`] of energies; a [`checkpoint`] lets it go on later.
+//! Implicit: [`semidiscrete`] has the matrices on the free unknowns for [`newmark`] steps, two rates ([`multirate`]),
 //! equilibria ([`quasi_static`]) and natural [`modes`].
 
+pub mod checkpoint;
+pub mod critical;
+pub mod damping;
+pub mod explicit;
+pub mod forces;
+pub mod interface;
+pub mod ledger;
 pub mod load;
 pub mod modes;
 pub mod multirate;

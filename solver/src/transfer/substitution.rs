@@ -14,7 +14,8 @@ use crate::coupling::{Method, Multipliers, Tie};
 use crate::dem::arrangement::Matter;
 use crate::dem::block::Block;
 use crate::dem::network::Network;
-use crate::dynamics::{State, system};
+use crate::dynamics::State;
+use crate::dynamics::semidiscrete::lumped;
 use crate::error::{Error, Result};
 use crate::fem::continuum::Continuum;
 use crate::fem::mesh::{Facet, Mesh};
@@ -138,7 +139,7 @@ pub fn substitute(
     let before = report::balance(model, state, factor, work)?;
     let as_mapped = report::balance(&new, &mapped, factor, work)?;
     if switch.mode >= Mode::ReEquilibrate {
-        let mass = system::mass(&new)?;
+        let mass = lumped(&new, &Numbering::new(&new))?;
         *work += equilibrium::relax(&new, discrete, &mut mapped, factor, &mass)?;
     }
     let after = report::balance(&new, &mapped, factor, work)?;
@@ -452,7 +453,7 @@ fn fill_state(
     if switch.mode < Mode::Velocity {
         return Ok(());
     }
-    let (old_mass, mass) = (system::mass(model)?, system::mass(new)?);
+    let (old_mass, mass) = (lumped(model, &Numbering::new(model))?, lumped(new, &numbering)?);
     let wanted = Momentum::of(model, &old_mass, &state.v);
     // The second pass removes the rounding of the first.
     for _ in 0..2 {

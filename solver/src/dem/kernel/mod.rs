@@ -144,7 +144,7 @@ mod tests {
             for j in i + 1..count.min(i + 5) {
                 let b = network.bonds.len();
                 let radius = 0.05 + 0.1 * draw();
-                network.bonds.ends.push(if b % 2 == 0 { [i, j] } else { [j, i] });
+                network.bonds.ends.push(if b.is_multiple_of(2) { [i, j] } else { [j, i] });
                 network.bonds.radius.push(radius);
                 network.bonds.stiffness.push(material.cylinder(radius, network.bond_length(b)));
                 network.bonds.weight.push([1.0, 0.5, 0.25, 0.0][b % 4]);

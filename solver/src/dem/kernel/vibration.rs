@@ -41,7 +41,12 @@ impl Vibration {
         let heavy = |m: &f64| m.is_finite() && *m > 0.0;
         let masses = network.particles.mass.iter().zip(&network.particles.inertia);
         if let Some((point, (m, j))) = masses.enumerate().find(|(_, (m, j))| !(heavy(m) && heavy(j))) {
-            return Err(Error::Massless { body: body.to_owned(), noun: "particle", point, mass: m.min(*j) });
+            return Err(Error::Geometry {
+                what: format!("body '{body}'"),
+                message: format!(
+                    "particle {point} has mass {m} and inertia {j}; both must be positive: give a positive density"
+                ),
+            });
         }
         Ok(Vibration(match network.space {
             Space::Plane => Teams::Plane(Team::new(network, body, threads)?),
@@ -167,6 +172,6 @@ mod tests {
         assert!(refusal(&network, 0).contains("at least one thread"));
         assert!(refusal(&network, 100_000).contains("no more than particles"));
         network.particles.inertia[3] = 0.0;
-        assert!(refusal(&network, 1).contains("particle 3 has mass or inertia"));
+        assert!(refusal(&network, 1).contains("particle 3 has mass"));
     }
 }

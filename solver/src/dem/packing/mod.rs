@@ -2,7 +2,7 @@
 //!
 //! Protocol: radii drawn uniformly from `R̄(1 ± spread)`, then scaled together so that the solid fraction is met
 //! exactly; particles thrown at random into the box, those of a closed box first onto its corners, edges and
-//! faces ([`strata`]); then their overlaps pushed apart by minimising `½Σδ²` ([`relax`]) at fixed radii, as in O'Hern et al.
+//! faces (`strata`); then their overlaps pushed apart by minimising `½Σδ²` (`relax`) at fixed radii, as in O'Hern et al.
 //! (2003). Near random close packing (0.64 for spheres, 0.84 for discs) what overlap is left is small; it is reported.
 //!
 //! In a closed box the particles of the faces have their centres *on* them, so that faces are flat and can be tied and
