@@ -136,20 +136,6 @@ pub enum Error {
         /// What is wrong and what to do.
         message: String,
     },
-    /// Inertia asked of something that has none.
-    #[error(
-        "body '{body}': {noun} {point} has mass or inertia {mass:.3e}; dynamics needs positive ones: give a positive density"
-    )]
-    Massless {
-        /// Name of the body.
-        body: String,
-        /// `node` or `particle`.
-        noun: &'static str,
-        /// Its index.
-        point: usize,
-        /// Its mass (kg) or inertia (kg m²).
-        mass: f64,
-    },
     /// A time step at which explicit integration would blow up.
     #[error(
         "time step {step_s:.6e} s is beyond the critical {critical_s:.6e} s set by {what}; take at most the critical step"

@@ -3,9 +3,10 @@
 //! M is lumped: row sums for elements, mass and inertia for particles. Prescribed unknowns are taken out; they keep
 //! their value for all time.
 
-use super::{State, system};
-use crate::error::Result;
-use crate::model::{Model, Numbering, PointValue};
+use super::State;
+use crate::error::{Error, Result};
+use crate::fem::loads::lumped_mass;
+use crate::model::{Model, Numbering, Part, PointValue};
 use crate::solve::kkt::Layout;
 use crate::solve::sparse::{SymmetricMatrix, Triplets};
 use crate::solve::statics;
@@ -87,7 +88,7 @@ impl Semidiscrete {
         for PointValue { part, point, component, value } in &model.loads {
             load[numbering.unknown(*part, *point, *component)] += value;
         }
-        let mass = system::mass(model)?;
+        let mass = lumped(model, &numbering)?;
         let (group, positions) = statics::points_of(model, &numbering, &free);
         Ok(Semidiscrete {
             mass: free.iter().map(|&i| mass[i]).collect(),
@@ -195,4 +196,40 @@ pub(crate) fn diagonal(values: &[f64]) -> SymmetricMatrix {
     let mut triplets = Triplets::with_capacity(values.len());
     values.iter().enumerate().for_each(|(i, &m)| triplets.push(i, i, m));
     SymmetricMatrix::from_triplets(values.len(), &triplets)
+}
+
+/// Lumped mass of every unknown of a model, in kg and kg m².
+///
+/// # Errors
+/// An inverted element; a mass or inertia that is not positive and finite.
+pub fn lumped(model: &Model, numbering: &Numbering) -> Result<Vec<f64>> {
+    let dim = model.space.dim();
+    let mut mass = Vec::with_capacity(numbering.len());
+    for part in &model.parts {
+        let first = mass.len();
+        match part {
+            Part::Continuum(body) => {
+                mass.extend(lumped_mass(body)?.into_iter().flat_map(|m| std::iter::repeat_n(m, dim)));
+            }
+            Part::Discrete { network, .. } => {
+                let particles = &network.particles;
+                for (&m, &j) in particles.mass.iter().zip(&particles.inertia) {
+                    mass.extend(std::iter::repeat_n(m, dim));
+                    mass.extend(std::iter::repeat_n(j, model.space.rotations()));
+                }
+            }
+        }
+        if let Some(bad) = mass[first..].iter().position(|m| !(m.is_finite() && *m > 0.0)) {
+            return Err(Error::Geometry {
+                what: format!("body '{}'", part.name()),
+                message: format!(
+                    "{} {} has mass or inertia {}; give a positive density, and every node a cell",
+                    part.noun(),
+                    bad / part.dofs_per_point(),
+                    mass[first + bad]
+                ),
+            });
+        }
+    }
+    Ok(mass)
 }

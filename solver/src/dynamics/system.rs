@@ -1,9 +1,9 @@
 //! What all integrators share: masses, supports, loads and constraint rows.
 
+use super::semidiscrete::{lumped, row_product};
 use crate::coupling::Row;
-use crate::error::{Error, Result};
-use crate::fem::loads::lumped_mass;
-use crate::model::{Model, Numbering, Part, PointValue};
+use crate::error::Result;
+use crate::model::{Model, Numbering, PointValue};
 use crate::solve::statics;
 
 /// The constant parts of the equations of motion of a model.
@@ -43,7 +43,7 @@ impl System {
         let mut place = vec![usize::MAX; n];
         (0..n).filter(|&i| prescribed[i].is_none()).enumerate().for_each(|(k, i)| place[i] = k);
         let tied = statics::constraints(model, &numbering, &prescribed, &place)?;
-        let mass = mass(model)?;
+        let mass = lumped(model, &numbering)?;
         Ok(System { numbering, mass, prescribed, load, rows: tied.rows, notes: tied.notes })
     }
 
@@ -54,40 +54,6 @@ impl System {
 
     /// Gap `‖C u‖`, in m.
     pub fn gap(&self, u: &[f64]) -> f64 {
-        self.rows.iter().map(|row| row_value(row, u).powi(2)).sum::<f64>().sqrt()
+        self.rows.iter().map(|row| row_product(&row.terms, u).powi(2)).sum::<f64>().sqrt()
     }
-}
-
-/// `Σ c_i x_i` of one row.
-pub fn row_value(row: &Row, x: &[f64]) -> f64 {
-    row.terms.iter().map(|&(i, c)| c * x[i]).sum()
-}
-
-/// Lumped mass of every unknown, in their order.
-pub(crate) fn mass(model: &Model) -> Result<Vec<f64>> {
-    let mut all = Vec::new();
-    for part in &model.parts {
-        let first = all.len();
-        match part {
-            Part::Continuum(body) => {
-                let dim = body.mesh.space.dim();
-                all.extend(lumped_mass(body)?.into_iter().flat_map(|m| std::iter::repeat_n(m, dim)));
-            }
-            Part::Discrete { network, .. } => {
-                let (dim, rotations) = (network.space.dim(), network.space.rotations());
-                for (&m, &j) in network.particles.mass.iter().zip(&network.particles.inertia) {
-                    all.extend(std::iter::repeat_n(m, dim).chain(std::iter::repeat_n(j, rotations)));
-                }
-            }
-        }
-        if let Some(at) = all[first..].iter().position(|m| !(m.is_finite() && *m > 0.0)) {
-            return Err(Error::Massless {
-                body: part.name().to_owned(),
-                noun: part.noun(),
-                point: at / part.dofs_per_point(),
-                mass: all[first + at],
-            });
-        }
-    }
-    Ok(all)
 }

@@ -2,7 +2,7 @@
 
 use super::momentum::Momentum;
 use crate::dynamics::State;
-use crate::dynamics::semidiscrete::{Semidiscrete, dot};
+use crate::dynamics::semidiscrete::{Semidiscrete, dot, lumped};
 use crate::error::Result;
 use crate::model::{Model, Numbering, Part};
 use crate::solve::kkt::{EPSILONS, Kkt};
@@ -34,7 +34,7 @@ pub struct Balance {
 pub fn balance(model: &Model, state: &State, factor: f64, work: &mut Work) -> Result<Balance> {
     let system = Semidiscrete::new(model, work)?;
     let stiffness = statics::assemble_stiffness(model, &system.numbering, work)?;
-    let mass = crate::dynamics::system::mass(model)?;
+    let mass = lumped(model, &system.numbering)?;
     let mut internal = vec![0.0; mass.len()];
     stiffness.multiply_add(&state.u, &mut internal);
     let inner: Vec<f64> = system.free.iter().map(|&i| internal[i]).collect();

@@ -5,21 +5,22 @@
 //! they were of elements that go: so a region can grow by a second switch beside the first.
 
 use super::equilibrium;
-use super::fields::{self, Mode, PointMotion};
-use super::momentum::{Momentum, rigid_velocity};
+use super::fields::Mode;
+use super::pieces::{Piece, cut, face_between, new_boundary, pieces};
 use super::points::{move_supports, spread};
 use super::region::Region;
 use super::report::{self, InterfaceForce, SwitchReport};
+use super::state::map_state;
 use crate::coupling::{Method, Multipliers, Tie};
 use crate::dem::arrangement::Matter;
 use crate::dem::block::Block;
 use crate::dem::network::Network;
-use crate::dynamics::{State, system};
+use crate::dynamics::State;
+use crate::dynamics::semidiscrete::lumped;
 use crate::error::{Error, Result};
 use crate::fem::continuum::Continuum;
-use crate::fem::mesh::{Facet, Mesh};
 use crate::model::{Model, Numbering, Part, PointValue};
-use crate::space::{Space, Vec3};
+use crate::space::Vec3;
 use crate::work::Work;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -77,12 +78,6 @@ pub enum Origin {
     Filled,
 }
 
-/// A piece of a body: its cells, nodes and mesh.
-struct Piece {
-    body: Continuum,
-    nodes: Vec<usize>,
-}
-
 /// Replaces elements by particles in a model and a state, with the loads scaled by `factor` at this time.
 ///
 /// # Errors
@@ -138,7 +133,7 @@ pub fn substitute(
     let before = report::balance(model, state, factor, work)?;
     let as_mapped = report::balance(&new, &mapped, factor, work)?;
     if switch.mode >= Mode::ReEquilibrate {
-        let mass = system::mass(&new)?;
+        let mass = lumped(&new, &Numbering::new(&new))?;
         *work += equilibrium::relax(&new, discrete, &mut mapped, factor, &mass)?;
     }
     let after = report::balance(&new, &mapped, factor, work)?;
@@ -194,96 +189,6 @@ fn fill(body: &Continuum, switch: &Switch) -> Result<Network> {
         }
     }
     Ok(network)
-}
-
-/// The cells that stay, by connection through nodes, each as a body of its own.
-fn pieces(body: &Continuum, switch: &Switch) -> Vec<Piece> {
-    let mesh = &body.mesh;
-    let gone: BTreeSet<usize> = switch.region.cells.iter().copied().collect();
-    let stay: Vec<usize> = (0..mesh.cell_count()).filter(|c| !gone.contains(c)).collect();
-    let mut cells_of_node: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
-    for &cell in &stay {
-        mesh.cell(cell).iter().for_each(|&n| cells_of_node.entry(n).or_default().push(cell));
-    }
-    let mut seen = BTreeSet::new();
-    let mut pieces = Vec::new();
-    for &first in &stay {
-        if !seen.insert(first) {
-            continue;
-        }
-        let (mut cells, mut next) = (Vec::new(), vec![first]);
-        while let Some(cell) = next.pop() {
-            cells.push(cell);
-            for neighbour in mesh.cell(cell).iter().flat_map(|n| &cells_of_node[n]) {
-                if seen.insert(*neighbour) {
-                    next.push(*neighbour);
-                }
-            }
-        }
-        cells.sort_unstable();
-        let name =
-            if pieces.is_empty() { body.name.clone() } else { format!("{}.{}", body.name, switch.name) };
-        let name = if pieces.len() > 1 { format!("{name}.{}", pieces.len()) } else { name };
-        pieces.push(cut(body, &cells, name, |facet| {
-            face_between(mesh, &switch.region, facet).map(|face| new_boundary(switch, face))
-        }));
-    }
-    pieces
-}
-
-/// Name of the boundary of a piece along a face of the region.
-fn new_boundary(switch: &Switch, face: &str) -> String {
-    format!("{}:{face}", switch.name)
-}
-
-/// Some cells of a body as a body; `name_of` names facets besides the old names.
-fn cut(body: &Continuum, cells: &[usize], name: String, name_of: impl Fn(&Facet) -> Option<String>) -> Piece {
-    let mesh = &body.mesh;
-    let nodes: BTreeSet<usize> = cells.iter().flat_map(|&c| mesh.cell(c).iter().copied()).collect();
-    let nodes: Vec<usize> = nodes.into_iter().collect();
-    let place = |node: usize| nodes.binary_search(&node).expect("a node of these cells");
-    let renumber = |facet: &Facet, cell: usize| {
-        let mut own = Facet { cell, nodes: [0; 4] };
-        for (k, &n) in mesh.facet_nodes(facet).iter().enumerate() {
-            own.nodes[k] = place(n);
-        }
-        own
-    };
-    let mut boundaries: BTreeMap<String, Vec<Facet>> = BTreeMap::new();
-    for (old, facets) in &mesh.boundaries {
-        for facet in facets {
-            if let Ok(cell) = cells.binary_search(&facet.cell) {
-                boundaries.entry(old.clone()).or_default().push(renumber(facet, cell));
-            }
-        }
-    }
-    for (index, &cell) in cells.iter().enumerate() {
-        for facet in mesh.cell_facets(cell) {
-            if let Some(boundary) = name_of(&facet) {
-                boundaries.entry(boundary).or_default().push(renumber(&facet, index));
-            }
-        }
-    }
-    let own = Mesh {
-        space: mesh.space,
-        nodes: nodes.iter().map(|&n| mesh.nodes[n]).collect(),
-        cells: cells.iter().flat_map(|&c| mesh.cell(c)).map(|&n| place(n)).collect(),
-        boundaries,
-    };
-    Piece { body: Continuum { name, mesh: own, ..body.clone() }, nodes }
-}
-
-/// The face of the region that a facet lies on and within; `None` elsewhere.
-fn face_between(mesh: &Mesh, region: &Region, facet: &Facet) -> Option<&'static str> {
-    let nodes = mesh.facet_nodes(facet);
-    let middle = nodes.iter().map(|&n| mesh.nodes[n]).sum::<Vec3>() / nodes.len() as f64;
-    let block = &region.block;
-    let dim = mesh.space.dim();
-    let on = |axis: usize, upper: bool| nodes.iter().all(|&n| block.on_face(mesh.nodes[n], axis, upper));
-    let within =
-        |axis: usize| (0..dim).all(|i| i == axis || (middle[i] > block.min[i] && middle[i] < block.max[i]));
-    let faces = Block::faces(mesh.space).iter();
-    faces.filter(|(_, axis, upper)| on(*axis, *upper) && within(*axis)).map(|f| f.0).next()
 }
 
 /// New ties along the faces of the region, and the old ones where their faces went.
@@ -396,116 +301,6 @@ fn move_values(
     }
     (new.supports, new.loads) = (supports, loads);
     Ok(())
-}
-
-/// The state on the unknowns of the new model.
-fn map_state(
-    model: &Model,
-    state: &State,
-    new: &Model,
-    origins: &[Origin],
-    switch: &Switch,
-    discrete: usize,
-) -> Result<State> {
-    let (old_numbering, numbering) = (Numbering::new(model), Numbering::new(new));
-    let mut mapped = State { time: state.time, ..State::at_rest(numbering.len()) };
-    for (p, (part, origin)) in new.parts.iter().zip(origins).enumerate() {
-        for point in 0..part.positions().len() {
-            let (old_part, old_point) = match origin {
-                Origin::Kept(old) => (*old, point),
-                Origin::Piece { part, nodes } => (*part, nodes[point]),
-                Origin::Filled => continue,
-            };
-            for c in 0..part.dofs_per_point() {
-                let (i, j) = (numbering.unknown(p, point, c), old_numbering.unknown(old_part, old_point, c));
-                (mapped.u[i], mapped.v[i], mapped.a[i]) = (state.u[j], state.v[j], state.a[j]);
-            }
-        }
-    }
-    fill_state(model, state, new, &mut mapped, switch, discrete)?;
-    Ok(mapped)
-}
-
-/// Writes the motion of the elements that go into the particles, and gives back the momentum that interpolation lost.
-fn fill_state(
-    model: &Model,
-    state: &State,
-    new: &Model,
-    mapped: &mut State,
-    switch: &Switch,
-    discrete: usize,
-) -> Result<()> {
-    let (Part::Continuum(body), Part::Discrete { network, .. }) =
-        (&model.parts[switch.part], &new.parts[discrete])
-    else {
-        return Ok(());
-    };
-    let first = Numbering::new(model).offset(switch.part);
-    let own = |field: &'_ [f64]| field[first..first + body.dof_count()].to_vec();
-    let (u, v, a) = (own(&state.u), own(&state.v), own(&state.a));
-    let positions = &network.particles.position;
-    let numbering = Numbering::new(new);
-    let motions = fields::at_points(body, [&u, &v, &a], positions, switch.finite)?;
-    for (particle, motion) in motions.iter().enumerate() {
-        write(new.space, &numbering, mapped, (discrete, particle), motion, switch.mode);
-    }
-    if switch.mode < Mode::Velocity {
-        return Ok(());
-    }
-    let (old_mass, mass) = (system::mass(model)?, system::mass(new)?);
-    let wanted = Momentum::of(model, &old_mass, &state.v);
-    // The second pass removes the rounding of the first.
-    for _ in 0..2 {
-        let missing = wanted - Momentum::of(new, &mass, &mapped.v);
-        let (c, omega, centre) = rigid_velocity(new.space, &network.particles, missing);
-        for (particle, x) in positions.iter().enumerate() {
-            let v = c + omega.cross(&(x - centre));
-            add_velocity(new.space, &numbering, &mut mapped.v, (discrete, particle), v, omega);
-        }
-    }
-    Ok(())
-}
-
-fn write(
-    space: Space,
-    numbering: &Numbering,
-    state: &mut State,
-    (part, particle): (usize, usize),
-    motion: &PointMotion,
-    mode: Mode,
-) {
-    let dim = space.dim();
-    for c in 0..dim {
-        let i = numbering.unknown(part, particle, c);
-        state.u[i] = motion.u[c];
-        if mode >= Mode::Velocity {
-            (state.v[i], state.a[i]) = (motion.v[c], motion.a[c]);
-        }
-    }
-    for (k, &axis) in space.rotation_axes().iter().enumerate() {
-        let i = numbering.unknown(part, particle, dim + k);
-        if mode >= Mode::Rotation {
-            state.u[i] = motion.theta[axis];
-        }
-        if mode >= Mode::Velocity {
-            (state.v[i], state.a[i]) = (motion.spin[axis], motion.alpha[axis]);
-        }
-    }
-}
-
-fn add_velocity(
-    space: Space,
-    numbering: &Numbering,
-    velocities: &mut [f64],
-    (part, particle): (usize, usize),
-    v: Vec3,
-    spin: Vec3,
-) {
-    let dim = space.dim();
-    (0..dim).for_each(|c| velocities[numbering.unknown(part, particle, c)] += v[c]);
-    for (k, &axis) in space.rotation_axes().iter().enumerate() {
-        velocities[numbering.unknown(part, particle, dim + k)] += spin[axis];
-    }
 }
 
 /// Force through every coupled face of the region, by the elements that went and by the particles that came.
