@@ -57,7 +57,8 @@ impl FiniteBond {
     pub fn loads(&self, stretch: Vec3, turned: [Turned; 2]) -> Loads {
         let d = self.n * self.length + stretch;
         let length = d.norm();
-        let e = d / length;
+        let inverse = 1.0 / length;
+        let e = d * inverse;
         let t = turned.map(|(_, frame)| frame * self.n);
         let b = t.map(|t| e.cross(&t));
         let c = t.map(|t| e.dot(&t));
@@ -69,24 +70,22 @@ impl FiniteBond {
         };
         let m = [bend(0, rho1, slope1), bend(1, rho2, slope2)];
         let axial = e * (self.kn * (length - self.length));
-        let shear = e.cross(&(m[0] + m[1])) / length;
+        let shear = e.cross(&(m[0] + m[1])) * inverse;
         let (tau, gradient) = self.twist(turned, t[0]);
         let twist = gradient * (self.kt * tau);
         Loads { force: axial + shear, moments: [m[0] - twist, m[1] + twist] }
     }
 
-    /// `τ` and its gradient with respect to `φ₂ − φ₁`. With `p = Q₁* Q₂ = (w, v)`, `s = v·n`: `τ = 2 atan(s/w)`;
-    /// in fixed axes, `P = Q₁ v`, `t = Q₁ n`: `∂τ/∂φ = (w² t + w P × t + s P)/(w² + s²)`.
+    /// `τ` and its gradient with respect to `φ₂ − φ₁`, in fixed axes. With `Q₂ Q₁* = (w, P)`, `s = P·t`, `t = Q₁ n`:
+    /// `τ = 2 atan x`, `x = s/w`; `∂τ/∂φ = (t + (P/w) × t + x P/w)/(1 + x²)`.
     #[inline(always)]
-    fn twist(&self, [(q1, frame1), (q2, _)]: [Turned; 2], t: Vec3) -> (f64, Vec3) {
+    fn twist(&self, [(q1, _), (q2, _)]: [Turned; 2], t: Vec3) -> (f64, Vec3) {
         let (a, b) = (q1.as_vector(), q2.as_vector());
         let (a_v, b_v) = (Vec3::new(a.x, a.y, a.z), Vec3::new(b.x, b.y, b.z));
         let w = a.w * b.w + a_v.dot(&b_v);
-        let v = b_v * a.w - a_v * b.w - a_v.cross(&b_v);
-        let s = v.dot(&self.n);
-        let p = frame1 * v;
-        let tau = 2.0 * arc_tangent(s, w);
-        (tau, (t * (w * w) + p.cross(&t) * w + p * s) / (w * w + s * s))
+        let p = (b_v * a.w - a_v * b.w + a_v.cross(&b_v)) * (1.0 / w);
+        let x = p.dot(&t);
+        (2.0 * arc_tangent(x), (t + p.cross(&t) + p * x) * (1.0 / (1.0 + x * x)))
     }
 
     /// Energy at the same deformation, in J.
@@ -105,10 +104,9 @@ impl FiniteBond {
     }
 }
 
-/// `atan(s/w)` in (−π/2, π/2): quaternions of either sign are the same rotation.
+/// `atan x` in (−π/2, π/2): quaternions of either sign are the same rotation.
 #[inline(always)]
-fn arc_tangent(s: f64, w: f64) -> f64 {
-    let x = s / w;
+fn arc_tangent(x: f64) -> f64 {
     if x.abs() < SMALL_TWIST {
         // x − x³/3 + … : the next term, x¹³/13, is below rounding.
         let x2 = x * x;
