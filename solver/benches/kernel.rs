@@ -81,6 +81,10 @@ fn bond_updates(c: &mut Criterion) {
 /// One thread against two in pairs, and the best of each: on a machine that others use, the best tells what the
 /// threads can do and the median what they got.
 fn threads_in_pairs(_: &mut Criterion) {
+    // Criterion's filter knows its own benchmarks only.
+    if std::env::args().any(|a| a.starts_with("forces") || a.starts_with("bond_updates")) {
+        return;
+    }
     for (name, rows) in [("solid/20k", 13), ("solid/200k", 29)] {
         let network = network(rows);
         let n = 6 * network.particles.len();

@@ -108,8 +108,8 @@ impl Corotational {
         let (u, f) = (u.as_chunks::<D>().0, f.as_chunks_mut::<D>().0);
         for (&[i, j], bond) in self.ends.iter().zip(&self.bonds) {
             let (i, j) = (i as usize, j as usize);
-            let loads =
-                bond.loads(stretch(&u[i], &u[j]), [i, j].map(|p| (&self.orientation[p], &self.frame[p])));
+            let turned = [(&self.orientation[i], &self.frame[i]), (&self.orientation[j], &self.frame[j])];
+            let loads = bond.loads(stretch(&u[i], &u[j]), turned);
             accumulate(&mut f[i], -loads.force, loads.moments[0]);
             accumulate(&mut f[j], loads.force, loads.moments[1]);
         }
