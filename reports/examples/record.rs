@@ -16,7 +16,8 @@ fn main() -> Result<(), Box<dyn Error>> {
         for (id, claim) in claims {
             let before = old.claim(tier, id);
             if before != Some(claim) {
-                let was = before.map_or("unrecorded".to_owned(), |b| format!("{} ({:.0} %)", b.verdict, 100.0 * b.share));
+                let was = before
+                    .map_or("unrecorded".to_owned(), |b| format!("{} ({:.0} %)", b.verdict, 100.0 * b.share));
                 println!("{tier} {id}: {was} → {} ({:.0} %)", claim.verdict, 100.0 * claim.share);
             }
         }
