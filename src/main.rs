@@ -3,6 +3,7 @@
 mod args;
 mod progress;
 mod provenance;
+mod references;
 mod results;
 mod running;
 mod verbs;
@@ -23,7 +24,8 @@ fn main() -> ExitCode {
         Verb::Report(words) => verbs::report(&words),
     };
     let exit = done.unwrap_or_else(|error| {
-        eprintln!("seam: {error:#}");
+        // Each message holds its causes, so the chain below it would say them twice.
+        eprintln!("seam: {error}");
         exit_of(&error)
     });
     ExitCode::from(exit as u8)
@@ -31,7 +33,8 @@ fn main() -> ExitCode {
 
 /// What could not be measured is 4; everything else a user can mend is 2.
 fn exit_of(error: &anyhow::Error) -> Exit {
-    let unmeasured = error.downcast_ref::<results::Unmeasured>().is_some()
+    let unmeasured = error.is::<results::Unmeasured>()
+        || error.is::<seam_references::Problem>()
         || matches!(error.downcast_ref(), Some(seam_cases::error::Error::Study { .. }));
     if unmeasured { Exit::Unmeasured } else { Exit::Usage }
 }
