@@ -1,6 +1,7 @@
 //! The `seam` command: words in, exit code out. All else is in the libraries.
 
 mod args;
+mod message;
 mod progress;
 mod provenance;
 mod references;
@@ -24,8 +25,7 @@ fn main() -> ExitCode {
         Verb::Report(words) => verbs::report(&words),
     };
     let exit = done.unwrap_or_else(|error| {
-        // Each message holds its causes, so the chain below it would say them twice.
-        eprintln!("seam: {error}");
+        eprintln!("seam: {}", message::of(&error));
         exit_of(&error)
     });
     ExitCode::from(exit as u8)
@@ -33,8 +33,9 @@ fn main() -> ExitCode {
 
 /// What could not be measured is 4; everything else a user can mend is 2.
 fn exit_of(error: &anyhow::Error) -> Exit {
+    use seam_cases::error::Error::{Reference, Study};
     let unmeasured = error.is::<results::Unmeasured>()
         || error.is::<seam_references::Problem>()
-        || matches!(error.downcast_ref(), Some(seam_cases::error::Error::Study { .. }));
+        || matches!(error.downcast_ref(), Some(Study { .. } | Reference { .. }));
     if unmeasured { Exit::Unmeasured } else { Exit::Usage }
 }

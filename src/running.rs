@@ -2,7 +2,7 @@
 
 use crate::args::{Running, Tier};
 use crate::progress::Progress;
-use crate::results;
+use crate::{message, results};
 use anyhow::{Result, anyhow, bail};
 use rayon::prelude::*;
 use seam_cases::file::SceneFile;
@@ -80,7 +80,7 @@ pub fn run(files: &[SceneFile], out: &Path, running: &Running) -> Result<Vec<Fai
 pub fn none_failed(failed: Vec<Failed>) -> Result<()> {
     let mut errors = failed.into_iter().map(|f| f.error);
     let Some(first) = errors.next() else { return Ok(()) };
-    errors.for_each(|error| eprintln!("seam: {error}"));
+    errors.for_each(|error| eprintln!("seam: {}", message::of(&error)));
     Err(first)
 }
 

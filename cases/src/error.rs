@@ -46,6 +46,14 @@ pub enum Error {
         /// What is wrong and what to do.
         message: String,
     },
+    /// A reference that is missing, incomplete or altered.
+    #[error("case '{case}': reference {source}")]
+    Reference {
+        /// Id of the case.
+        case: String,
+        /// What is wrong with it.
+        source: seam_references::Problem,
+    },
     /// A study that gave nothing to judge.
     #[error("case '{case}': {message}")]
     Study {

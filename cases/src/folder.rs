@@ -37,6 +37,10 @@ impl Folder {
             (Ok(_), Ok(_)) => {
                 fail(io::ErrorKind::PermissionDenied, "the link leads out of the folder of the scene")
             }
+            (Ok(_), Err(missing)) if missing.kind() == io::ErrorKind::NotFound => {
+                let message = "no such file; put it next to the scene, or correct the name in the scene";
+                fail(missing.kind(), message)
+            }
             (Err(source), _) | (_, Err(source)) => {
                 Err(Error::File { path: path.display().to_string(), source })
             }

@@ -71,7 +71,7 @@ fn every_reference_that_comes_with_seam_is_whole() {
         verify(reference).unwrap_or_else(|problem| panic!("{problem}"));
     }
     let ids: Vec<String> = all.iter().map(Reference::id).collect();
-    assert!(ids.is_sorted() && ids.contains(&"homogenised-packing/published".to_owned()), "{ids:?}");
+    assert!(ids.is_sorted() && ids.contains(&"homogenised-packing/prototype".to_owned()), "{ids:?}");
 }
 
 #[test]
@@ -88,7 +88,7 @@ fn numbers_come_by_name_and_unit() {
 
 #[test]
 fn the_packing_table_reads_as_noted() {
-    let data = find("homogenised-packing", "published").unwrap().open().unwrap();
+    let data = find("homogenised-packing", "prototype").unwrap().open().unwrap();
     assert_eq!(data.column("radius_ratio", "1").unwrap(), [0.3, 0.5, 0.71, 0.9]);
     // The affine law is an upper bound of the stiffness.
     let (young, bound) =
@@ -103,7 +103,7 @@ fn an_unknown_reference_is_told_from_the_known_ones() {
         problem.starts_with("there is no reference 'homogenised-packing/yade'; known are: "),
         "{problem}"
     );
-    assert!(problem.contains("homogenised-packing/published"), "{problem}");
+    assert!(problem.contains("homogenised-packing/prototype"), "{problem}");
 }
 
 proptest! {

@@ -120,6 +120,26 @@ pub enum Error {
         /// What happened and what to do.
         message: String,
     },
+    /// A load history that cannot act as it should.
+    #[error("{what}: {message}")]
+    Load {
+        /// Which load.
+        what: String,
+        /// What is wrong and what to do.
+        message: String,
+    },
+    /// A time step at which explicit integration would blow up.
+    #[error(
+        "time step {step_s:.6e} s is beyond the critical {critical_s:.6e} s set by {what}; take at most the critical step"
+    )]
+    UnstableStep {
+        /// The step asked for, in s.
+        step_s: f64,
+        /// The safe bound on the critical step, in s.
+        critical_s: f64,
+        /// The element or bond that sets it.
+        what: String,
+    },
     /// A file that cannot be read.
     #[error("{file}{}: {message}", line.map(|l| format!(":{l}")).unwrap_or_default())]
     File {

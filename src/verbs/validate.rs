@@ -5,7 +5,7 @@ use super::report;
 use crate::args::Validate;
 use crate::results::Unmeasured;
 use crate::running::Failed;
-use crate::{references, results, running};
+use crate::{message, references, results, running};
 use anyhow::Result;
 use seam_cases::file::SceneFile;
 use seam_cases::write::RESULT;
@@ -36,6 +36,6 @@ fn not_run(failed: &[Failed]) -> Result<(), Unmeasured> {
     if failed.is_empty() {
         return Ok(());
     }
-    let reasons: Vec<String> = failed.iter().map(|f| f.error.to_string()).collect();
+    let reasons: Vec<String> = failed.iter().map(|f| message::of(&f.error)).collect();
     Err(Unmeasured(reasons.join("\nseam: ")))
 }

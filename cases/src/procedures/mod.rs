@@ -3,6 +3,7 @@
 //! A new procedure is one file and one line of the registry.
 
 mod bond_matrix;
+mod calculix;
 mod homogenisation;
 mod lattice_constants;
 mod manufactured;
@@ -12,6 +13,7 @@ use crate::file::SceneFile;
 use crate::result::{CaseResult, Observation};
 use crate::scene::Tier;
 use crate::study::{self, Run};
+use seam_references::{Dataset, find};
 use std::time::Instant;
 
 /// A verification: fills in the quantities and studies of a result that has its head.
@@ -20,6 +22,7 @@ type Procedure = fn(&Setting, &mut CaseResult) -> Result<()>;
 /// Names and procedures that need no bodies.
 const REGISTRY: &[(&str, Procedure)] = &[
     ("bond-matrix", bond_matrix::run),
+    ("calculix", calculix::run),
     ("homogenisation", homogenisation::run),
     ("lattice-constants", lattice_constants::run),
     ("manufactured", manufactured::run),
@@ -78,6 +81,15 @@ impl Setting<'_> {
 
     fn solver(&self, source: seam_solver::error::Error) -> Error {
         self.file.solver(source)
+    }
+
+    fn reference(&self, source: seam_references::Problem) -> Error {
+        Error::Reference { case: self.file.scene.id.clone(), source }
+    }
+
+    /// The numbers of a reference, once they are known to be whole.
+    fn dataset(&self, case: &str, source: &str) -> Result<Dataset> {
+        find(case, source).and_then(|reference| reference.open()).map_err(|problem| self.reference(problem))
     }
 }
 

@@ -115,7 +115,8 @@ pub fn for_each_stiffness(
     Ok(())
 }
 
-fn check_bond(network: &Network, body: &str, bond: usize) -> Result<()> {
+/// Refuses a bond that cannot carry load.
+pub(super) fn check_bond(network: &Network, body: &str, bond: usize) -> Result<()> {
     let [i, j] = network.bonds.ends[bond];
     let fail =
         |message: &str| Err(Error::Bond { body: body.to_owned(), bond, i, j, message: message.to_owned() });

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Elastic constants of homogenised random packings of spheres against the bond radius.
 
-Run from anywhere: python3 references/generators/published/homogenised_packing.py
+Run from anywhere: python3 references/generators/prototype/homogenised_packing.py
 
 The numbers are restated: no code that computed them is kept, so this script holds them as they were
 noted, digit for digit.
@@ -30,7 +30,7 @@ ROWS = [
 
 write(
     "homogenised-packing",
-    "published",
+    "prototype",
     COLUMNS,
     ROWS,
     inputs={},
@@ -44,6 +44,6 @@ write(
     "rebuilt twice independently.",
     code="prototypes, not kept",
     version="not recorded",
-    command="python3 references/generators/published/homogenised_packing.py",
+    command="python3 references/generators/prototype/homogenised_packing.py",
     machine="not recorded",
 )

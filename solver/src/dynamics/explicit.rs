@@ -1,0 +1,304 @@
+//! Central differences for a whole model, coupled by multipliers with equal steps.
+//!
+//! `v₊ = v₋ + Δt M⁻¹ (f_ext − f_int(u_n) + d)`, then the ties ([`super::interface`]), then `u_{n+1} = u_n + Δt v₊`.
+//! Velocities live at the half steps; the state at `t_n` has `v_n = ½(v₋ + v₊)`, `a_n = (v₊ − v₋)/Δt`.
+
+use super::State;
+use super::critical::{self, CriticalStep};
+use super::damping::Damping;
+use super::forces::{InternalForces, Rotations};
+use super::interface::Interface;
+use super::ledger::{Ledger, WorkDone};
+use super::load::LoadFactor;
+use super::semidiscrete::row_product;
+use super::system::System;
+use crate::error::{Error, Result};
+use crate::model::Model;
+use crate::work::Work;
+
+/// How to integrate.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Options {
+    /// Time step Δt, in s.
+    pub step_s: f64,
+    /// Factor on the loads of the model.
+    pub loads: LoadFactor,
+    /// Factor on the prescribed displacements and rotations.
+    pub supports: LoadFactor,
+    /// Damping.
+    pub damping: Damping,
+    /// Small or finite rotations of particles. Finite ones start from unturned particles, `u` then holds the integral of
+    /// the spin, and the critical step is that of the undeformed network.
+    pub rotations: Rotations,
+}
+
+/// State, energies and gap at one time.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Observation {
+    /// The motion.
+    pub state: State,
+    /// The energies.
+    pub ledger: Ledger,
+    /// Gap `‖C u‖`, in m.
+    pub gap: f64,
+    /// Forces of supports and ties on each unknown, in N and N m.
+    pub reactions: Vec<f64>,
+}
+
+/// An explicit run.
+pub struct Explicit {
+    options: Options,
+    pub(super) motion: Motion,
+    system: System,
+    pub(super) forces: InternalForces,
+    interface: Interface,
+    critical: CriticalStep,
+    loaded: Vec<(usize, f64)>,
+    held: Vec<(usize, f64)>,
+    pub(super) work: Work,
+}
+
+/// What a run carries from step to step.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Motion {
+    /// Time of step zero, in s.
+    pub start: f64,
+    /// Steps taken.
+    pub step: u64,
+    /// Displacements and rotations at `t_n`.
+    pub u: Vec<f64>,
+    /// Velocities half a step earlier, `v₋`.
+    pub v: Vec<f64>,
+    /// Work up to half a step earlier.
+    pub done: WorkDone,
+    /// Energy at the start.
+    pub initial: f64,
+}
+
+/// What the forces at `t_n` do to the velocities.
+struct Kick {
+    /// `v₊`.
+    v: Vec<f64>,
+    /// `f_int(u_n)`.
+    internal: Vec<f64>,
+    /// Forces of the ties.
+    ties: Vec<f64>,
+    /// Forces of the supports.
+    supports: Vec<f64>,
+    /// Power of each kind of force on `v₋` and on `v₊`, in W.
+    power: [WorkDone; 2],
+}
+
+impl Explicit {
+    /// Prepares a run from `initial`: displacements and velocities at its time; its accelerations follow from the forces.
+    ///
+    /// # Errors
+    /// As [`System::new`]; a step beyond the critical one; loads that are undefined; a state that does not fit;
+    /// finite rotations of a model with elements or from a state that is already turned.
+    pub fn new(model: &Model, options: Options, initial: &State) -> Result<Self> {
+        let motion = Motion {
+            start: initial.time,
+            step: 0,
+            u: initial.u.clone(),
+            v: initial.v.clone(),
+            done: WorkDone::default(),
+            initial: 0.0,
+        };
+        let mut run = Explicit::prepare(model, options, motion)?;
+        run.refuse_turned_start(model)?;
+        run.start()?;
+        Ok(run)
+    }
+
+    /// Everything but the first half step.
+    pub(super) fn prepare(model: &Model, options: Options, motion: Motion) -> Result<Self> {
+        let system = System::new(model)?;
+        options.loads.check("loads", f64::INFINITY)?;
+        options.supports.check("supports", f64::INFINITY)?;
+        options.damping.check()?;
+        let mut critical = critical::bound(model)?;
+        critical.step_s *= options.damping.step_factor();
+        critical.admit(options.step_s)?;
+        let n = system.numbering.len();
+        let finite = |x: &[f64]| x.len() == n && x.iter().all(|x| x.is_finite());
+        if !(finite(&motion.u) && finite(&motion.v) && motion.start.is_finite()) {
+            return Err(Error::Solve {
+                message: format!(
+                    "the initial state needs {n} finite displacements and velocities, and a finite time"
+                ),
+            });
+        }
+        let mut work = Work::default();
+        let forces = InternalForces::new(model, &system.numbering, options.rotations)?;
+        let interface = Interface::new(&system, &mut work)?;
+        let nonzero = |(i, f): (usize, &f64)| (*f != 0.0).then_some((i, *f));
+        let loaded = system.load.iter().enumerate().filter_map(nonzero).collect();
+        let held = system.prescribed.iter().enumerate().filter_map(|(i, p)| Some((i, (*p)?))).collect();
+        Ok(Explicit { options, motion, system, forces, interface, critical, loaded, held, work })
+    }
+
+    fn refuse_turned_start(&self, model: &Model) -> Result<()> {
+        let numbering = &self.system.numbering;
+        let turned = |i: &usize| numbering.locate(*i).2 >= model.space.dim() && self.motion.u[*i] != 0.0;
+        match (self.options.rotations, (0..numbering.len()).find(turned)) {
+            (Rotations::Finite, Some(i)) => {
+                let (part, point, _) = numbering.locate(i);
+                let message = format!(
+                    "with finite rotations particle {point} of body '{}' starts turned; start from unturned particles",
+                    model.parts[part].name()
+                );
+                Err(Error::Solve { message })
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// Half a step back: `v₋ = 2 v₀ − v₊` with `v₊ = v₀ + (Δt/2) a₀`, so that `v₀` is met at second order.
+    fn start(&mut self) -> Result<()> {
+        let v0 = self.motion.v.clone();
+        // With v₋ = v₀ a kick of half a step gives v₀ + (Δt/2) a₀, on the ties and supports.
+        let ahead = self.kick(0.5 * self.options.step_s)?;
+        self.motion.v = v0.iter().zip(&ahead.v).map(|(v0, v)| 2.0 * v0 - v).collect();
+        let start = self.observe()?;
+        // Work is counted from t₀, half a step after v₋.
+        let Ledger { work, kinetic, strain, .. } = start.ledger;
+        self.motion.done = -1.0 * work;
+        self.motion.initial = kinetic + strain;
+        Ok(())
+    }
+
+    /// Time `t_n`, in s.
+    pub fn time(&self) -> f64 {
+        self.time_of(self.motion.step)
+    }
+
+    fn time_of(&self, step: u64) -> f64 {
+        self.motion.start + step as f64 * self.options.step_s
+    }
+
+    /// Displacements and rotations at `t_n`.
+    pub fn u(&self) -> &[f64] {
+        &self.motion.u
+    }
+
+    /// Masses, supports and rows.
+    pub fn system(&self) -> &System {
+        &self.system
+    }
+
+    /// How it is integrated.
+    pub fn options(&self) -> &Options {
+        &self.options
+    }
+
+    /// The safe bound on the step, damping included.
+    pub fn critical(&self) -> &CriticalStep {
+        &self.critical
+    }
+
+    /// What was done so far.
+    pub fn work(&self) -> Work {
+        self.work
+    }
+
+    /// Takes `steps` steps.
+    ///
+    /// # Errors
+    /// Motion that is no longer finite; ties that cannot be met.
+    pub fn advance(&mut self, steps: u64) -> Result<()> {
+        for _ in 0..steps {
+            self.step()?;
+        }
+        match self.motion.u.iter().position(|u| !u.is_finite()) {
+            Some(i) => {
+                let (part, point, _) = self.system.numbering.locate(i);
+                let message =
+                    format!("part {part}, point {point} moves to infinity; look for infinite loads");
+                Err(Error::Solve { message })
+            }
+            None => Ok(()),
+        }
+    }
+
+    fn step(&mut self) -> Result<()> {
+        let dt = self.options.step_s;
+        let kick = self.kick(dt)?;
+        let [before, after] = kick.power;
+        self.motion.done += 0.5 * dt * (before + after);
+        self.motion.u.iter_mut().zip(&kick.v).for_each(|(u, v)| *u += dt * v);
+        self.forces.turn(&kick.v, dt);
+        self.motion.v = kick.v;
+        self.motion.step += 1;
+        self.work.steps += 1;
+        Ok(())
+    }
+
+    /// State, energies and gap at `t_n`. Costs one evaluation of the forces and changes nothing.
+    ///
+    /// # Errors
+    /// As [`Explicit::advance`].
+    pub fn observe(&mut self) -> Result<Observation> {
+        let dt = self.options.step_s;
+        let kick = self.kick(dt)?;
+        let Motion { u, v: v_before, .. } = &self.motion;
+        let pairs = || v_before.iter().zip(&kick.v);
+        let kinetic = 0.5 * pairs().zip(&self.system.mass).map(|((a, b), m)| m * a * b).sum::<f64>();
+        let strain = self.forces.energy(u, &kick.internal);
+        let work = self.motion.done + 0.5 * dt * kick.power[0];
+        Ok(Observation {
+            ledger: Ledger { kinetic, strain, work, initial: self.motion.initial },
+            gap: self.system.gap(u),
+            reactions: kick.ties.iter().zip(&kick.supports).map(|(t, s)| t + s).collect(),
+            state: State {
+                time: self.time(),
+                u: u.clone(),
+                v: pairs().map(|(a, b)| 0.5 * (a + b)).collect(),
+                a: pairs().map(|(a, b)| (b - a) / dt).collect(),
+            },
+        })
+    }
+
+    /// `v₊` from `v₋`, `dt` apart, under the forces at `t_n`.
+    fn kick(&mut self, dt: f64) -> Result<Kick> {
+        let (system, before, u) = (&self.system, &self.motion.v, &self.motion.u);
+        let (now, factor) = (self.time(), self.options.loads.at(self.time()));
+        let mut internal = vec![0.0; u.len()];
+        self.forces.add(u, &mut internal, &mut self.work);
+        let mut force: Vec<f64> = internal.iter().map(|f| -f).collect();
+        self.loaded.iter().for_each(|&(i, f)| force[i] += factor * f);
+        // A viscous force on v_n = ½(v₋ + v₊) divides by 1 + αΔt/2.
+        let viscous = 0.5 * dt * self.options.damping.rate();
+        let mut v: Vec<f64> = (0..u.len())
+            .map(|i| ((1.0 - viscous) * before[i] + dt * force[i] / system.mass[i]) / (1.0 + viscous))
+            .collect();
+        let goal = self.options.supports.at(now + self.options.step_s);
+        self.held.iter().for_each(|&(i, value)| v[i] = (goal * value - u[i]) / self.options.step_s);
+
+        let mut ties = vec![0.0; u.len()];
+        let mut multipliers = self.interface.project(system, &mut v, &mut ties, &mut self.work)?;
+        let drag = self.options.damping.drag(dt, before, &v, system);
+        if let Some(drag) = &drag {
+            (0..v.len()).for_each(|i| v[i] += dt * drag[i] / system.mass[i]);
+            let more = self.interface.project(system, &mut v, &mut ties, &mut self.work)?;
+            multipliers.iter_mut().zip(more).for_each(|(l, more)| *l += more);
+        }
+        let per_impulse = (1.0 + viscous) / dt;
+        ties.iter_mut().for_each(|f| *f *= per_impulse);
+
+        let mut supports = vec![0.0; u.len()];
+        for &(i, _) in &self.held {
+            supports[i] = system.mass[i] * (v[i] - before[i]) / dt - force[i] - ties[i];
+        }
+        let power = [before, &v].map(|w| {
+            let loads: f64 = self.loaded.iter().map(|&(i, f)| factor * f * w[i]).sum();
+            let moving: f64 = self.held.iter().map(|&(i, _)| supports[i] * w[i]).sum();
+            let rows = system.rows.iter().zip(&multipliers);
+            WorkDone {
+                external: loads + moving,
+                damping: self.options.damping.power(drag.as_deref(), before, &v, w, system),
+                interface: -per_impulse * rows.map(|(row, l)| l * row_product(&row.terms, w)).sum::<f64>(),
+            }
+        });
+        Ok(Kick { v, internal, ties, supports, power })
+    }
+}

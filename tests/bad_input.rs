@@ -1,0 +1,97 @@
+//! Bad input: exit code 2, a message with the place and the mend, and earlier results untouched.
+
+mod common;
+
+use common::{call, files, pass, scenes};
+
+/// Runs a bad scene where the same id has a good result, and looks for each of `parts` in the message.
+fn refused(scene: &str, parts: &[&str]) {
+    let home = tempfile::tempdir().unwrap();
+    let good = std::fs::read_to_string(scenes().join("own-beam.toml")).unwrap();
+    let earlier = home.path().join("earlier.toml");
+    std::fs::write(&earlier, good.replace("id = \"own-beam\"", &format!("id = \"{scene}\""))).unwrap();
+    let out = home.path().join("out");
+    pass(&["run", earlier.to_str().unwrap(), "--out"], &out);
+    let before = files(&out);
+    assert!(before.contains_key(&out.join(scene).join("result.json")), "nothing to lose in {scene}");
+
+    let outcome = call(&["run", &format!("{scene}.toml"), "--quiet", "--out"], &out);
+    let message = &outcome.stderr;
+    assert_eq!(outcome.code, Some(2), "{message}");
+    for part in parts {
+        assert!(message.contains(part), "'{part}' is not in: {message}");
+        assert_eq!(message.matches(part).count(), 1, "'{part}' is told twice in: {message}");
+    }
+    assert!(!message.contains("panicked"), "{message}");
+    assert!(files(&out) == before, "{scene}: the earlier result has changed");
+}
+
+#[test]
+fn an_unknown_key() {
+    refused(
+        "unknown-key",
+        &[
+            "unknown-key.toml:13:1: unknown key 'materiel'",
+            "bodies.block.materiel",
+            "did you mean 'material'?",
+        ],
+    );
+}
+
+#[test]
+fn a_wrong_type() {
+    refused("wrong-type", &["wrong-type.toml:15:20: ", "string \"two\"", "bodies.block.fe.divisions"]);
+}
+
+#[test]
+fn a_negative_modulus() {
+    refused(
+        "negative-modulus",
+        &["negative-modulus.toml:8:12: ", "materials.solid.young_Pa", "mend: give it a value above zero"],
+    );
+}
+
+#[test]
+fn a_missing_file() {
+    refused("missing-file", &["bonds-that-are-lost.csv", "put it next to the scene"]);
+}
+
+#[test]
+fn a_path_that_leaves_the_folder() {
+    refused("leaving-the-folder", &["../scenes/particles.csv", "give a path below it"]);
+}
+
+#[test]
+fn an_inverted_element() {
+    refused("inverted-element", &["body 'bowtie': element 2 is inverted", "check the order and position"]);
+}
+
+#[test]
+fn overlapping_subdomains() {
+    refused("overlap", &["'first' and 'second' overlap by 2.500e-1 m", "they may only share a face"]);
+}
+
+#[test]
+fn an_empty_interface() {
+    refused("empty-interface", &["tie 'joint': empty interface"]);
+}
+
+#[test]
+fn a_mechanism() {
+    refused("mechanism", &["body 'block' is free to move along y", "add supports"]);
+}
+
+#[test]
+fn disconnected_particles() {
+    refused("disconnected", &["body 'net': 1 particle(s) not connected", "[3]", "bond them, tie them"]);
+}
+
+#[test]
+fn duplicate_ids_in_a_table() {
+    refused("duplicate-ids", &["duplicate-particles.csv:4: column 'id'", "give each its own id"]);
+}
+
+#[test]
+fn nan_in_a_table() {
+    refused("nan-in-csv", &["nan-bonds.csv:3: column 'young_Pa'", "'NaN' is not a finite number"]);
+}
