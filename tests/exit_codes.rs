@@ -77,3 +77,13 @@ fn half_a_result_is_4() {
     fs::write(&result, &text[..text.len() / 2]).unwrap();
     assert_eq!(call(&["check", "--from"], home.path()).code, Some(4));
 }
+
+#[test]
+fn an_own_claim_left_open_is_5_where_that_is_asked_for() {
+    let home = tempfile::tempdir().unwrap();
+    pass(&["run", "undetermined.toml", "--out"], home.path());
+    let lenient = pass(&["check", "--from"], home.path());
+    assert!(lenient.stdout.contains("undetermined  close"), "{}", lenient.stdout);
+    assert!(!lenient.stdout.contains("could not be run"), "both packings are measured: {}", lenient.stdout);
+    assert_eq!(call(&["check", "--strict", "--from"], home.path()).code, Some(5));
+}
