@@ -73,7 +73,10 @@ fn overlapping_subdomains() {
 
 #[test]
 fn an_empty_interface() {
-    refused("empty-interface", &["tie 'joint': empty interface"]);
+    refused(
+        "empty-interface",
+        &["tie 'joint': empty interface", "do not lie in one plane", "tie flat faces that touch"],
+    );
 }
 
 #[test]

@@ -52,7 +52,7 @@ pub enum Error {
         /// Id of the case.
         case: String,
         /// What is wrong with it.
-        source: seam_references::Problem,
+        source: Box<seam_references::Problem>,
     },
     /// A study that gave nothing to judge.
     #[error("case '{case}': {message}")]

@@ -49,7 +49,7 @@ fn cantilever() -> Model {
 fn deck(model: &Model) -> String {
     let Part::Continuum(body) = &model.parts[0] else { unreachable!("the cantilever is a continuum") };
     let mut text = "*NODE, NSET=ALL\n".to_owned();
-    let mut line = |text: &mut String, words: std::fmt::Arguments| {
+    let line = |text: &mut String, words: std::fmt::Arguments| {
         text.write_fmt(words).and_then(|()| text.write_char('\n')).expect("a string takes everything");
     };
     for (i, x) in body.mesh.nodes.iter().enumerate() {

@@ -56,8 +56,8 @@ fn bond_updates(c: &mut Criterion) {
     for (name, rows) in [("solid/20k", 13), ("solid/200k", 29)] {
         let network = network(rows);
         let (particles, bonds) = (network.particles.len(), network.bonds.len());
-        // A bond's record and partner, 60 bytes; a particle's u, v, f (read and written) and inverse mass.
-        let bytes = 60.0 + particles as f64 / bonds as f64 * (2.0 * 3.0 + 1.0) * 48.0;
+        // A bond's record and partner, 60 bytes; a particle's u, v, f (read and written), inverse mass and inertia.
+        let bytes = 60.0 + particles as f64 / bonds as f64 * (2.0 * 3.0 * 48.0 + 16.0);
         eprintln!(
             "{name}: {particles} particles, {bonds} bonds, {bytes:.0} bytes per bond; stream {:.1} GB/s allows {:.0} M/s per core",
             bandwidth * 1e-9,
@@ -76,6 +76,44 @@ fn bond_updates(c: &mut Criterion) {
         }
     }
     group.finish();
+}
+
+/// One thread against two in pairs, and the best of each: on a machine that others use, the best tells what the
+/// threads can do and the median what they got.
+fn threads_in_pairs(_: &mut Criterion) {
+    // Criterion's filter knows its own benchmarks only.
+    if std::env::args().any(|a| a.starts_with("forces") || a.starts_with("bond_updates")) {
+        return;
+    }
+    for (name, rows) in [("solid/20k", 13), ("solid/200k", 29)] {
+        let network = network(rows);
+        let n = 6 * network.particles.len();
+        let mut runs = [1, 2].map(|threads| {
+            let mut vibration = Vibration::new(&network, "bar", threads).expect("a network");
+            vibration.set(&vec![1e-6; n], &vec![0.0; n]);
+            vibration
+        });
+        let steps = 2_000_000 / network.bonds.len() + 1;
+        let pairs: Vec<[f64; 2]> = (0..41)
+            .map(|_| {
+                [0, 1].map(|t| {
+                    let start = Instant::now();
+                    runs[t].advance(1e-6, steps);
+                    (steps * network.bonds.len()) as f64 / start.elapsed().as_secs_f64() * 1e-6
+                })
+            })
+            .collect();
+        let best = |t: usize| pairs.iter().map(|p| p[t]).fold(0.0, f64::max);
+        let mut ratios: Vec<f64> = pairs.iter().map(|p| p[1] / p[0]).collect();
+        ratios.sort_by(f64::total_cmp);
+        eprintln!(
+            "{name}: best {:.1} M/s on one thread, {:.1} M/s on two ({:.2} times); median of the pairs {:.2} times",
+            best(0),
+            best(1),
+            best(1) / best(0),
+            ratios[ratios.len() / 2]
+        );
+    }
 }
 
 /// Forces alone, small against finite rotations on the same network and one thread: finite ones may cost three times as much.
@@ -100,5 +138,5 @@ fn finite_rotations(c: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, bond_updates, finite_rotations);
+criterion_group!(benches, bond_updates, threads_in_pairs, finite_rotations);
 criterion_main!(benches);

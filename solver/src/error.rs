@@ -114,6 +114,14 @@ pub enum Error {
         /// The rows it depends on.
         others: String,
     },
+    /// Elements that cannot be replaced by particles, or a criterion that cannot say which.
+    #[error("{what}: {message}")]
+    Switch {
+        /// The body, region or criterion.
+        what: String,
+        /// What is wrong and what to do.
+        message: String,
+    },
     /// A linear solve that failed or is not accurate enough to be used.
     #[error("linear solve: {message}")]
     Solve {

@@ -14,5 +14,6 @@ pub mod files;
 pub mod model;
 pub mod solve;
 pub mod space;
+pub mod transfer;
 pub mod vtu;
 pub mod work;

@@ -156,6 +156,11 @@ fn a_step_beyond_the_critical_one_is_refused_with_both_numbers() {
     assert!(matches!(error, Error::UnstableStep { .. }), "{error}");
     let message = error.to_string();
     assert!(message.contains("1.010000e-1") && message.contains("1.000000e-1"), "{message}");
+    // Local damping of α can stiffen by 1 + α, so that the bound is 0.1 s over its root.
+    for (step_s, admitted) in [(0.079, true), (0.0791, false)] {
+        let options = Options { damping: Damping::NonViscous { share: 0.6 }, ..every(step_s) };
+        assert_eq!(Explicit::new(&model, options, &at_rest(&model)).is_ok(), admitted, "{step_s}");
+    }
     for bad in [0.0, -1.0, f64::NAN] {
         assert!(Explicit::new(&model, every(bad), &at_rest(&model)).is_err());
     }

@@ -84,7 +84,7 @@ impl Setting<'_> {
     }
 
     fn reference(&self, source: seam_references::Problem) -> Error {
-        Error::Reference { case: self.file.scene.id.clone(), source }
+        Error::Reference { case: self.file.scene.id.clone(), source: Box::new(source) }
     }
 
     /// The numbers of a reference, once they are known to be whole.

@@ -68,7 +68,7 @@ impl Frame {
         let bump = positions.iter().map(|p| frame.height(p).abs()).fold(0.0, f64::max);
         if bump > 1e-6 * size {
             return Err(empty(&format!(
-                "the face is not flat (off by {bump:.3e} m); tie flat faces one by one"
+                "the points to be tied do not lie in one plane (off by {bump:.3e} m); tie flat faces that touch, pair by pair"
             )));
         }
         Ok(frame)

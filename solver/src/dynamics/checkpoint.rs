@@ -1,6 +1,6 @@
 //! Stopping an explicit run and going on later, bit by bit.
 //!
-//! The file: the line [`MAGIC`], a hash of model and options, all numbers that change from step to step (64 bits each,
+//! The file: the line `MAGIC`, a hash of model and options, all numbers that change from step to step (64 bits each,
 //! little-endian), and a hash of all that.
 
 use super::explicit::{Explicit, Motion, Options};

@@ -3,6 +3,7 @@
 //! M is lumped: row sums for elements, mass and inertia for particles. Prescribed unknowns are taken out; they keep
 //! their value for all time.
 
+use super::State;
 use crate::error::{Error, Result};
 use crate::fem::loads::lumped_mass;
 use crate::model::{Model, Numbering, Part, PointValue};
@@ -30,6 +31,8 @@ pub struct Semidiscrete {
     pub gaps: Vec<f64>,
     /// The model's loads, to be scaled in time; in N and N m.
     pub load: Vec<f64>,
+    /// What each row ties, in words.
+    pub labels: Vec<String>,
     /// Constraint rows that were dropped, and why.
     pub notes: Vec<String>,
     /// Forces of the prescribed displacements: constant.
@@ -92,6 +95,7 @@ impl Semidiscrete {
             load: free.iter().map(|&i| load[i]).collect(),
             held_energy: 0.5 * dot(&alone, &internal),
             row_positions: tied.rows.iter().map(|r| r.position).collect(),
+            labels: tied.rows.into_iter().map(|r| r.label).collect(),
             rows: tied.reduced,
             gaps: tied.rhs,
             notes: tied.notes,
@@ -161,17 +165,21 @@ impl Semidiscrete {
         gaps.fold(0.0, f64::max)
     }
 
-    /// Values on all unknowns from those on the free ones; prescribed ones get their displacement, or zero if `rates`.
-    pub fn expand(&self, values: &[f64], rates: bool) -> Vec<f64> {
-        let fixed = |p: &Option<f64>| if rates { 0.0 } else { p.unwrap_or(0.0) };
-        let mut full: Vec<f64> = self.prescribed.iter().map(fixed).collect();
-        self.free.iter().zip(values).for_each(|(&i, &v)| full[i] = v);
-        full
+    /// The motion of all unknowns; prescribed ones rest at their values.
+    pub fn state(&self, motion: &Motion) -> State {
+        let held: Vec<f64> = self.prescribed.iter().map(|p| p.unwrap_or(0.0)).collect();
+        let rest = vec![0.0; held.len()];
+        let mut state = State { time: motion.time, u: held, v: rest.clone(), a: rest };
+        for (k, &i) in self.free.iter().enumerate() {
+            (state.u[i], state.v[i], state.a[i]) = (motion.u[k], motion.v[k], motion.a[k]);
+        }
+        state
     }
 
-    /// Values on the free unknowns from those on all.
-    pub fn restrict(&self, full: &[f64]) -> Vec<f64> {
-        self.free.iter().map(|&i| full[i]).collect()
+    /// The motion of the free unknowns.
+    pub fn motion(&self, state: &State) -> Motion {
+        let of = |full: &[f64]| self.free.iter().map(|&i| full[i]).collect();
+        Motion { time: state.time, u: of(&state.u), v: of(&state.v), a: of(&state.a) }
     }
 }
 

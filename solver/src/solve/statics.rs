@@ -155,6 +155,7 @@ pub(crate) fn assemble_stiffness(
     Ok(SymmetricMatrix::from_triplets(numbering.len(), &triplets))
 }
 
+/// Independent constraint rows of a model.
 pub(crate) struct Constraints {
     /// Rows kept, on all unknowns.
     pub rows: Vec<Row>,
@@ -162,11 +163,11 @@ pub(crate) struct Constraints {
     pub reduced: Vec<Vec<(usize, f64)>>,
     /// What each row has to give: what the prescribed unknowns leave.
     pub rhs: Vec<f64>,
-    /// Why rows were dropped.
+    /// Rows dropped, and why.
     pub notes: Vec<String>,
 }
 
-/// Rows of the ties on the free unknowns, dependent ones dropped.
+/// Rows of all ties that the supports leave independent; `place` numbers the free unknowns.
 pub(crate) fn constraints(
     model: &Model,
     numbering: &Numbering,

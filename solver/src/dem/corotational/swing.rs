@@ -1,14 +1,17 @@
 //! `ρ = α / sin α` and its slope, from the cosine of the angle α between two directions.
 
-/// Below this `1 − cos α` (α ≈ 0.35) the series is used: [`TERMS`] reach rounding there, and no arc cosine is taken.
-const SERIES: f64 = 0.06;
-const TERMS: usize = 11;
+/// Below these values of `1 − cos α` (α ≈ 0.045 and 0.35) so many terms of the series reach rounding: short for the usual
+/// small strain, and no arc cosine until it is cheap by comparison.
+const NEAR: f64 = 1e-3;
+const NEAR_TERMS: usize = 6;
+const FAR: f64 = 0.06;
+const FAR_TERMS: usize = 13;
 
 /// Coefficients of `α / sin α = Σ 2^k (k!)²/(2k+1)! y^k`, `y = 1 − cos α`: each is `k/(2k+1)` times the one before.
-const COEFFICIENT: [f64; TERMS] = {
-    let mut a = [1.0; TERMS];
+const COEFFICIENT: [f64; FAR_TERMS] = {
+    let mut a = [1.0; FAR_TERMS];
     let mut k = 1;
-    while k < TERMS {
+    while k < FAR_TERMS {
         a[k] = a[k - 1] * k as f64 / (2 * k + 1) as f64;
         k += 1;
     }
@@ -19,18 +22,35 @@ const COEFFICIENT: [f64; TERMS] = {
 #[inline(always)]
 pub(super) fn swing(c: f64) -> (f64, f64) {
     let y = 1.0 - c;
-    if y < SERIES {
-        let (mut rho, mut slope) = (0.0, 0.0);
-        for k in (0..TERMS).rev() {
-            slope = slope * y + rho;
-            rho = rho * y + COEFFICIENT[k];
-        }
-        (rho, -slope)
+    if y < NEAR {
+        series::<NEAR_TERMS>(y)
+    } else if y < FAR {
+        series::<FAR_TERMS>(y)
     } else {
         let sine2 = y * (1.0 + c);
         let rho = c.acos() / sine2.sqrt();
         (rho, (rho * c - 1.0) / sine2)
     }
+}
+
+/// Even and odd powers apart: two short chains instead of a long one, since a bond waits for this.
+#[inline(always)]
+fn series<const TERMS: usize>(y: f64) -> (f64, f64) {
+    let y2 = y * y;
+    let [mut even, mut odd, mut slope_even, mut slope_odd] = [0.0; 4];
+    for k in (0..TERMS).rev() {
+        let (a, slope) = (COEFFICIENT[k], k as f64 * COEFFICIENT[k]);
+        if k.is_multiple_of(2) {
+            even = even * y2 + a;
+            if k > 0 {
+                slope_even = slope_even * y2 + slope;
+            }
+        } else {
+            odd = odd * y2 + a;
+            slope_odd = slope_odd * y2 + slope;
+        }
+    }
+    (even + odd * y, -(slope_odd + slope_even * y))
 }
 
 #[cfg(test)]
@@ -39,7 +59,7 @@ mod tests {
 
     #[test]
     fn series_and_closed_form_meet() {
-        for alpha in [1e-9, 1e-3, 0.1, 0.34, 0.36, 1.0, 3.0] {
+        for alpha in [1e-9, 1e-3, 0.044, 0.046, 0.1, 0.34, 0.36, 1.0, 3.0] {
             let (rho, slope) = swing(f64::cos(alpha));
             assert!((rho / (alpha / alpha.sin()) - 1.0).abs() < 1e-14, "{alpha}");
             // dρ/dc = (α cos α − sin α)/sin³ α; cancels for small α, where it tends to −1/3.

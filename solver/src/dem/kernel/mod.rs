@@ -101,15 +101,22 @@ impl<R: Record<D>, const D: usize> Rows<R, D> {
     }
 
     fn add_internal(&self, u: &[[f64; D]], f: &mut [[f64; D]]) {
-        for (i, range) in self.start.windows(2).enumerate() {
-            let range = range[0] as usize..range[1] as usize;
-            let q = u[i];
-            let mut own = f[i];
-            for (&j, bond) in self.other[range.clone()].iter().zip(&self.bonds[range]) {
-                bond.add_internal(&q, &u[j as usize], &mut own, &mut f[j as usize]);
-            }
-            f[i] = own;
+        for i in 0..u.len() {
+            f[i] = self.row(i, u, f);
         }
+    }
+
+    /// Adds the bonds of particle `i` to the forces on their higher particles; returns the force on `i` itself,
+    /// complete if the particles before it are done.
+    #[inline(always)]
+    fn row(&self, i: usize, u: &[[f64; D]], f: &mut [[f64; D]]) -> [f64; D] {
+        let range = self.start[i] as usize..self.start[i + 1] as usize;
+        let q = u[i];
+        let mut own = f[i];
+        for (&j, bond) in self.other[range.clone()].iter().zip(&self.bonds[range]) {
+            bond.add_internal(&q, &u[j as usize], &mut own, &mut f[j as usize]);
+        }
+        own
     }
 }
 

@@ -5,6 +5,9 @@ use crate::space::Vec3;
 
 /// A bond over `D` degrees of freedom per particle.
 pub(super) trait Record<const D: usize>: Copy + Send + Sync {
+    /// Displacement components, before the rotations.
+    const DIM: usize;
+
     /// From the half-bond vector `h` (m), lower to higher particle.
     fn new(h: Vec3, k: BondStiffness, weight: f64) -> Self;
 
@@ -22,6 +25,8 @@ pub(super) struct PlaneBond {
 }
 
 impl Record<3> for PlaneBond {
+    const DIM: usize = 2;
+
     fn new(h: Vec3, k: BondStiffness, weight: f64) -> Self {
         let h2 = h.norm_squared();
         PlaneBond {
@@ -64,6 +69,8 @@ pub(super) struct SolidBond {
 }
 
 impl Record<6> for SolidBond {
+    const DIM: usize = 3;
+
     fn new(h: Vec3, k: BondStiffness, weight: f64) -> Self {
         let h2 = h.norm_squared();
         SolidBond {

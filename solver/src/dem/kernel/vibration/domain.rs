@@ -15,7 +15,8 @@ struct Domain<R, const D: usize> {
     /// Number in the network of each local particle.
     global: Vec<usize>,
     rows: Rows<R, D>,
-    inverse_mass: Vec<[f64; D]>,
+    /// `1/m` and `1/J`.
+    inverse: Vec<[f64; 2]>,
     u: Vec<[f64; D]>,
     v: Vec<[f64; D]>,
     f: Vec<[f64; D]>,
@@ -45,15 +46,11 @@ impl<R: Record<D>, const D: usize> Domain<R, D> {
         let local = |p: usize| global.partition_point(|&g| g < p);
         let renumbered: Vec<_> =
             pairs.iter().map(|&(i, j, b)| (local(i as usize) as u32, local(j as usize) as u32, b)).collect();
-        let dim = network.space.dim();
-        let particles = &network.particles;
-        let inverse = |&p: &usize| {
-            std::array::from_fn(|c| 1.0 / if c < dim { particles.mass[p] } else { particles.inertia[p] })
-        };
+        let inverse = |&p: &usize| [1.0 / network.particles.mass[p], 1.0 / network.particles.inertia[p]];
         Domain {
             own: local(own.start)..local(own.end),
             rows: Rows::from_pairs(network, global.len(), &renumbered),
-            inverse_mass: global.iter().map(inverse).collect(),
+            inverse: global.iter().map(inverse).collect(),
             u: vec![[0.0; D]; global.len()],
             v: vec![[0.0; D]; global.len()],
             f: vec![[0.0; D]; global.len()],
@@ -63,17 +60,22 @@ impl<R: Record<D>, const D: usize> Domain<R, D> {
         }
     }
 
+    /// One sweep: after its row the force on a particle is complete and nobody needs its old place any more, so
+    /// that it moves at once.
     fn step(&mut self, dt: f64) {
-        self.rows.add_internal(&self.u, &mut self.f);
-        let own = self.own.clone();
-        let unknowns = self.u[own.clone()].iter_mut().zip(&mut self.v[own.clone()]);
-        for ((u, v), (f, w)) in unknowns.zip(self.f[own.clone()].iter().zip(&self.inverse_mass[own])) {
+        for i in 0..self.u.len() {
+            let f = self.rows.row(i, &self.u, &mut self.f);
+            self.f[i] = [0.0; D];
+            if !self.own.contains(&i) {
+                continue;
+            }
+            let [per_mass, per_inertia] = self.inverse[i];
+            let (u, v) = (&mut self.u[i], &mut self.v[i]);
             for c in 0..D {
-                v[c] -= dt * w[c] * f[c];
+                v[c] -= dt * if c < R::DIM { per_mass } else { per_inertia } * f[c];
                 u[c] += dt * v[c];
             }
         }
-        self.f.fill([0.0; D]);
     }
 
     fn post(&self, to: &Mutex<Vec<[f64; D]>>) {

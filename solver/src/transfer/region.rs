@@ -1,0 +1,92 @@
+//! The box of elements that particles are to replace.
+
+use crate::dem::block::Block;
+use crate::error::{Error, Result};
+use crate::fem::continuum::Continuum;
+use crate::fem::mesh::Mesh;
+use crate::fem::quadrature::tensor_gauss;
+use crate::space::Vec3;
+use std::collections::BTreeSet;
+
+/// Area or volume may differ by this share before a region counts as no box: rounding of coordinates.
+const ROUNDING: f64 = 1e-9;
+
+/// Elements that fill a box.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Region {
+    /// Cells, ascending.
+    pub cells: Vec<usize>,
+    /// The box they fill.
+    pub block: Block,
+}
+
+impl Region {
+    /// The smallest box region that holds `cells`: all cells whose centre lies in their bounding box.
+    ///
+    /// # Errors
+    /// No cells, cells that do not exist, or cells that do not fill their box: it must follow the lines of the mesh.
+    pub fn covering(body: &Continuum, cells: &BTreeSet<usize>) -> Result<Region> {
+        let mesh = &body.mesh;
+        let refuse =
+            |message: String| Error::Switch { what: format!("region in body '{}'", body.name), message };
+        if cells.is_empty() {
+            return Err(refuse(
+                "it has no elements; widen the box or lower the criterion's trigger".to_owned(),
+            ));
+        }
+        if let Some(bad) = cells.iter().find(|c| **c >= mesh.cell_count()) {
+            return Err(refuse(format!("there is no element {bad}, only {}", mesh.cell_count())));
+        }
+        let corners = cells.iter().flat_map(|&c| mesh.cell(c)).map(|&n| mesh.nodes[n]);
+        let empty = (Vec3::repeat(f64::INFINITY), Vec3::repeat(f64::NEG_INFINITY));
+        let (low, high) = corners.fold(empty, |(low, high), x| (low.inf(&x), high.sup(&x)));
+        Region::in_box(body, Block::new(mesh.space, low, high)?)
+    }
+
+    /// The cells whose centre lies in a box; the region is the box that they fill.
+    ///
+    /// # Errors
+    /// As [`Region::covering`].
+    pub fn in_box(body: &Continuum, wanted: Block) -> Result<Region> {
+        let mesh = &body.mesh;
+        let dim = mesh.space.dim();
+        let inside = |x: Vec3| (0..dim).all(|i| x[i] > wanted.min[i] && x[i] < wanted.max[i]);
+        let cells: Vec<usize> = (0..mesh.cell_count()).filter(|&c| inside(centre(mesh, c))).collect();
+        let refuse =
+            |message: String| Error::Switch { what: format!("region in body '{}'", body.name), message };
+        if cells.is_empty() {
+            return Err(refuse(format!(
+                "no element has its centre between {:?} and {:?}; widen the box",
+                &wanted.min.as_slice()[..dim],
+                &wanted.max.as_slice()[..dim]
+            )));
+        }
+        let corners = cells.iter().flat_map(|&c| mesh.cell(c)).map(|&n| mesh.nodes[n]);
+        let empty = (Vec3::repeat(f64::INFINITY), Vec3::repeat(f64::NEG_INFINITY));
+        let (low, high) = corners.fold(empty, |(low, high), x| (low.inf(&x), high.sup(&x)));
+        let block = Block::new(mesh.space, low, high)?;
+        let filled: f64 = cells.iter().map(|&c| measure(mesh, c)).sum();
+        let whole = block.measure(mesh.space);
+        if (filled / whole - 1.0).abs() > ROUNDING {
+            return Err(refuse(format!(
+                "its {} elements fill {:.4} of their box; particles are packed in boxes: choose elements along the lines of a \
+                 rectangular mesh",
+                cells.len(),
+                filled / whole
+            )));
+        }
+        Ok(Region { cells, block })
+    }
+}
+
+/// Mean of a cell's nodes, in m.
+pub fn centre(mesh: &Mesh, cell: usize) -> Vec3 {
+    let nodes = mesh.cell(cell);
+    nodes.iter().map(|&n| mesh.nodes[n]).sum::<Vec3>() / nodes.len() as f64
+}
+
+/// Area (m²) or volume (m³) of a cell.
+pub fn measure(mesh: &Mesh, cell: usize) -> f64 {
+    let rule = tensor_gauss(mesh.space.dim(), 2);
+    rule.iter().map(|&(xi, w)| w * mesh.sample(cell, xi).determinant).sum()
+}
