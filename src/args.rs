@@ -1,6 +1,7 @@
 //! The words of the command line.
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
 /// Verification and validation benchmarks for coupled finite-element and discrete-element solvers.
@@ -51,9 +52,20 @@ pub struct Validate {
     /// How the cases are run
     #[command(flatten)]
     pub running: Running,
+    /// What is judged beside
+    #[command(flatten)]
+    pub references: ReferencesFolder,
     /// Treat an undetermined own claim as a failure (exit code 5)
     #[arg(long)]
     pub strict: bool,
+}
+
+/// Option of everything that judges results.
+#[derive(Debug, Args)]
+pub struct ReferencesFolder {
+    /// Use the references of this folder (<case>/<source>.csv and .toml) instead of the built-in ones
+    #[arg(long, value_name = "DIR")]
+    pub references: Option<PathBuf>,
 }
 
 /// Options of everything that runs cases.
@@ -64,7 +76,7 @@ pub struct Running {
     pub tier: Tier,
     /// Threads; all cores if not given
     #[arg(long, value_name = "N")]
-    pub jobs: Option<usize>,
+    pub jobs: Option<NonZeroUsize>,
     /// Keep results that are there already and go on
     #[arg(long)]
     pub resume: bool,
@@ -120,6 +132,9 @@ pub struct Check {
     /// Folder with the results of a run
     #[arg(long, value_name = "DIR", default_value = "out")]
     pub from: PathBuf,
+    /// What is judged beside
+    #[command(flatten)]
+    pub references: ReferencesFolder,
     /// Treat an undetermined own claim as a failure (exit code 5)
     #[arg(long)]
     pub strict: bool,
@@ -131,4 +146,7 @@ pub struct Report {
     /// Folder with the results of a run
     #[arg(long, value_name = "DIR", default_value = "out")]
     pub from: PathBuf,
+    /// What is judged beside
+    #[command(flatten)]
+    pub references: ReferencesFolder,
 }

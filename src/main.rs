@@ -4,6 +4,7 @@ mod args;
 mod message;
 mod progress;
 mod provenance;
+mod references;
 mod results;
 mod running;
 mod verbs;
@@ -33,7 +34,8 @@ fn main() -> ExitCode {
 /// What could not be measured is 4; everything else a user can mend is 2.
 fn exit_of(error: &anyhow::Error) -> Exit {
     use seam_cases::error::Error::{Reference, Study};
-    let unmeasured = error.downcast_ref::<results::Unmeasured>().is_some()
+    let unmeasured = error.is::<results::Unmeasured>()
+        || error.is::<seam_references::Problem>()
         || matches!(error.downcast_ref(), Some(Study { .. } | Reference { .. }));
     if unmeasured { Exit::Unmeasured } else { Exit::Usage }
 }

@@ -2,13 +2,14 @@
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::IsTerminal;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Shows how far a run has come.
 pub enum Progress {
     /// A bar that redraws itself.
     Bar(ProgressBar),
-    /// One line per case.
-    Lines,
+    /// One line per case, with how many are done and how many there are.
+    Lines(AtomicUsize, usize),
     /// Nothing.
     Quiet,
 }
@@ -20,7 +21,7 @@ impl Progress {
             return Progress::Quiet;
         }
         if !std::io::stderr().is_terminal() {
-            return Progress::Lines;
+            return Progress::Lines(AtomicUsize::new(0), cases);
         }
         let bar = ProgressBar::with_draw_target(Some(cases as u64), ProgressDrawTarget::stderr());
         let style = ProgressStyle::with_template("{bar:24} {pos}/{len} {elapsed} {wide_msg}");
@@ -43,7 +44,10 @@ impl Progress {
                 bar.inc(1);
                 bar.set_message(format!("{id}: {how}"));
             }
-            Progress::Lines => eprintln!("{id}: {how}"),
+            Progress::Lines(done, cases) => {
+                let now = done.fetch_add(1, Ordering::Relaxed) + 1;
+                eprintln!("{now}/{cases} {id}: {how}");
+            }
             Progress::Quiet => {}
         }
     }

@@ -4,8 +4,8 @@ use seam_reports::results::{Machine, Provenance};
 use std::collections::BTreeMap;
 use std::time::{SystemTime, UNIX_EPOCH};
 
-/// Provenance of this process.
-pub fn here() -> Provenance {
+/// Provenance of this process, with the hashes of the references it judges beside.
+pub fn here(references: BTreeMap<String, String>) -> Provenance {
     let versions = [
         ("random generator", seam_solver::dem::packing::ALGORITHM),
         ("scene format", seam_cases::result::SCHEMA),
@@ -15,7 +15,7 @@ pub fn here() -> Provenance {
         commit: option_env!("SEAM_COMMIT").map(str::to_owned),
         command: command_line(),
         versions: versions.iter().map(|(k, v)| ((*k).to_owned(), (*v).to_owned())).collect(),
-        references: BTreeMap::new(),
+        references,
         machine: Machine {
             system: format!("{} {}", std::env::consts::OS, std::env::consts::ARCH),
             processor: processor(),

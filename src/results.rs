@@ -1,11 +1,12 @@
 //! From the folders of a run to judged results.
 
 use crate::provenance;
-use anyhow::{Context, Result};
+use anyhow::Result;
 use seam_cases::result::CaseResult;
 use seam_reports::judge::judge;
 use seam_reports::record::Recorded;
 use seam_reports::results::Results;
+use std::collections::BTreeMap;
 use std::path::Path;
 
 /// There is nothing that could be judged.
@@ -22,8 +23,8 @@ impl std::error::Error for Unmeasured {}
 
 /// Results of all cases below a folder, by id.
 pub fn load(from: &Path) -> Result<Vec<CaseResult>> {
-    let entries = std::fs::read_dir(from)
-        .map_err(|e| Unmeasured(format!("{}: {e}; run cases first: seam run --out {0}", from.display())))?;
+    let unreadable = |e: std::io::Error| Unmeasured(format!("{}: {e}; {}", from.display(), run_first(from)));
+    let entries = std::fs::read_dir(from).map_err(unreadable)?;
     let mut folders: Vec<_> =
         entries.collect::<std::io::Result<Vec<_>>>()?.into_iter().map(|e| e.path()).collect();
     folders.sort();
@@ -36,29 +37,24 @@ pub fn load(from: &Path) -> Result<Vec<CaseResult>> {
         }
     }
     if cases.is_empty() {
-        return Err(Unmeasured(format!(
-            "{}: no results; run cases first: seam run --out {0}",
-            from.display()
-        ))
-        .into());
+        return Err(Unmeasured(format!("{}: no results; {}", from.display(), run_first(from))).into());
     }
     Ok(cases)
 }
 
-/// One `result.json`.
-pub fn read(file: &Path) -> Result<CaseResult> {
-    let text = std::fs::read_to_string(file).with_context(|| file.display().to_string())?;
-    let unreadable = |e| Unmeasured(format!("{}: {e}; run the case again", file.display()));
-    Ok(serde_json::from_str(&text).map_err(unreadable)?)
+fn run_first(folder: &Path) -> String {
+    format!("run cases first: seam run --out {}", folder.display())
 }
 
-/// Judges cases against their references and the recorded verdicts. Every reference must be whole: one that
-/// is altered makes the rest suspect too.
-pub fn judged(cases: &[CaseResult]) -> Result<Results> {
-    let mut provenance = provenance::here();
-    for reference in seam_references::all() {
-        let data = reference.open().map_err(|problem| Unmeasured(format!("reference {problem}")))?;
-        provenance.references.insert(reference.id(), data.provenance.csv_sha256.as_str().to_owned());
-    }
-    Ok(judge(cases, provenance, &Recorded::project()?))
+/// One `result.json`.
+pub fn read(file: &Path) -> Result<CaseResult> {
+    let unreadable =
+        |e: &dyn std::error::Error| Unmeasured(format!("{}: {e}; run the case again", file.display()));
+    let text = std::fs::read_to_string(file).map_err(|e| unreadable(&e))?;
+    Ok(serde_json::from_str(&text).map_err(|e| unreadable(&e))?)
+}
+
+/// Judges cases, beside references of these hashes, and compares the verdicts with the recorded ones.
+pub fn judged(cases: &[CaseResult], references: BTreeMap<String, String>) -> Result<Results> {
+    Ok(judge(cases, provenance::here(references), &Recorded::project()?))
 }

@@ -3,11 +3,12 @@
 use crate::args::{Running, Tier};
 use crate::progress::Progress;
 use crate::{message, results};
-use anyhow::{Result, bail};
+use anyhow::{Result, anyhow, bail};
 use rayon::prelude::*;
 use seam_cases::file::SceneFile;
 use seam_cases::overrides::Override;
 use seam_cases::{catalogue, procedures, scene, write};
+use std::num::NonZeroUsize;
 use std::path::Path;
 
 /// The scenes named by ids and paths; without any, the whole catalogue of the tier.
@@ -46,22 +47,40 @@ impl From<Tier> for scene::Tier {
     }
 }
 
-/// Runs scenes into `out`; one that fails leaves the others, and its own earlier result, whole.
-///
-/// The first failure is returned once all have run.
-pub fn run(files: &[SceneFile], out: &Path, running: &Running) -> Result<()> {
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(running.jobs.unwrap_or(0)).build()?;
+/// A case that could not be run.
+pub struct Failed {
+    /// Its id.
+    pub id: String,
+    /// Why.
+    pub error: anyhow::Error,
+}
+
+/// Runs scenes into `out` and gives those that failed; a failure leaves the others, and the case's own
+/// earlier result, whole.
+pub fn run(files: &[SceneFile], out: &Path, running: &Running) -> Result<Vec<Failed>> {
+    // Before anything is computed that could not be kept.
+    std::fs::create_dir_all(out)
+        .map_err(|e| anyhow!("--out {}: {e}; name a folder that can be written", out.display()))?;
+    let threads = running.jobs.map_or(0, NonZeroUsize::get);
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build()?;
     let progress = Progress::new(files.len(), running.quiet);
     // The heaviest first, so that none is left alone at the end.
     let mut order: Vec<&SceneFile> = files.iter().collect();
     order.sort_by(|a, b| b.scene.needs.minutes.total_cmp(&a.scene.needs.minutes));
-    let failed: Vec<anyhow::Error> = pool.install(|| {
-        order.par_iter().with_max_len(1).filter_map(|file| one(file, out, running, &progress).err()).collect()
-    });
+    let failure = |file: &&SceneFile| {
+        let error = one(file, out, running, &progress).err()?;
+        Some(Failed { id: file.scene.id.clone(), error })
+    };
+    let failed = pool.install(|| order.par_iter().with_max_len(1).filter_map(failure).collect());
     progress.finish();
-    let mut failed = failed.into_iter();
-    let Some(first) = failed.next() else { return Ok(()) };
-    failed.for_each(|error| eprintln!("seam: {}", message::of(&error)));
+    Ok(failed)
+}
+
+/// Prints all failures but the first, which is returned.
+pub fn none_failed(failed: Vec<Failed>) -> Result<()> {
+    let mut errors = failed.into_iter().map(|f| f.error);
+    let Some(first) = errors.next() else { return Ok(()) };
+    errors.for_each(|error| eprintln!("seam: {}", message::of(&error)));
     Err(first)
 }
 

@@ -60,7 +60,7 @@ fn a_case_is_run_checked_and_reported() {
     let home = tempfile::tempdir().unwrap();
     let out = home.path();
     let run = pass(&["run", "cook-membrane", "bond-matrix", "--out"], out);
-    assert!(run.stderr.lines().any(|l| l.starts_with("cook-membrane: ")), "{}", run.stderr);
+    assert!(run.stderr.lines().any(|l| l.starts_with("1/2 ") || l.starts_with("2/2 ")), "{}", run.stderr);
     assert!(!run.stderr.contains('\x1b'), "a pipe gets plain lines: {}", run.stderr);
     for file in ["cook-membrane/result.json", "cook-membrane/panel.vtu", "bond-matrix/result.json"] {
         assert!(out.join(file).is_file(), "{file}");
@@ -145,4 +145,38 @@ fn a_network_from_tables_runs() {
     let energy = result["quantities"][0]["value"].as_f64().unwrap();
     // Rounding of a few operations.
     assert!((energy / exact - 1.0).abs() < 1e-12, "{energy} {exact}");
+}
+
+#[test]
+fn a_folder_that_cannot_be_written_is_told_before_anything_runs() {
+    let home = tempfile::tempdir().unwrap();
+    let file = home.path().join("taken");
+    fs::write(&file, "mine").unwrap();
+    let (code, _, message) = told(&["run", "bond-matrix", "--out", file.to_str().unwrap()]);
+    assert_eq!(code, Some(2));
+    assert!(message.contains("taken: ") && message.contains("name a folder"), "{message}");
+    assert!(!message.contains("bond-matrix"), "the case has run: {message}");
+    assert_eq!(fs::read_to_string(&file).unwrap(), "mine");
+}
+
+#[test]
+fn a_case_that_fails_leaves_the_others_their_results() {
+    let home = tempfile::tempdir().unwrap();
+    let words = ["run", "mechanism.toml", "bond-matrix", "--out", home.path().to_str().unwrap()];
+    let (code, _, message) = told(&words);
+    assert_eq!(code, Some(2));
+    assert!(message.contains("mechanism: failed") && message.contains("is free to move"), "{message}");
+    assert!(home.path().join("bond-matrix/result.json").is_file());
+    assert!(!home.path().join("mechanism").exists());
+}
+
+#[test]
+fn each_curve_is_written_once() {
+    let home = tempfile::tempdir().unwrap();
+    pass(&["run", "fe-fe-fe", "--out"], home.path());
+    pass(&["report", "--from"], home.path());
+    let names = fs::read_dir(home.path().join("fe-fe-fe")).unwrap();
+    let mut names: Vec<_> = names.map(|e| e.unwrap().file_name().into_string().unwrap()).collect();
+    names.sort();
+    assert_eq!(names, ["deflection.csv", "left.vtu", "middle.vtu", "result.json", "right.vtu"]);
 }

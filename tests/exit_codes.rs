@@ -77,3 +77,30 @@ fn half_a_result_is_4() {
     fs::write(&result, &text[..text.len() / 2]).unwrap();
     assert_eq!(call(&["check", "--from"], home.path()).code, Some(4));
 }
+
+#[test]
+fn an_own_claim_left_open_is_5_where_that_is_asked_for() {
+    let home = tempfile::tempdir().unwrap();
+    pass(&["run", "undetermined.toml", "--out"], home.path());
+    let lenient = pass(&["check", "--from"], home.path());
+    assert!(lenient.stdout.contains("undetermined  close"), "{}", lenient.stdout);
+    assert!(!lenient.stdout.contains("could not be run"), "both packings are measured: {}", lenient.stdout);
+    assert_eq!(call(&["check", "--strict", "--from"], home.path()).code, Some(5));
+}
+
+#[test]
+fn more_work_than_recorded_for_the_same_scene_is_3() {
+    let home = tempfile::tempdir().unwrap();
+    pass(&["run", "bond-matrix", "--out"], home.path());
+    let path = home.path().join("bond-matrix/result.json");
+    let text = fs::read_to_string(&path).unwrap();
+    let mut result: serde_json::Value = serde_json::from_str(&text).unwrap();
+    let updates = &mut result["work"]["bond_updates"];
+    *updates = (updates.as_u64().unwrap() + 1).into();
+    fs::write(&path, result.to_string()).unwrap();
+    let check = call(&["check", "--from"], home.path());
+    assert_eq!(check.code, Some(3), "{}{}", check.stdout, check.stderr);
+    for part in ["COSTS MORE bond-matrix", "recorded for the same scene", "seam run bond-matrix"] {
+        assert!(check.stdout.contains(part), "'{part}' is not in:\n{}", check.stdout);
+    }
+}

@@ -1,11 +1,11 @@
-//! Tables as CSV: the errors of all quantities, the curves of each case, the members of each family.
+//! Tables as CSV: the errors of all quantities, the members of each family. Curves are written where a case is run.
 
 use crate::results::{Results, ResultsError, write_whole};
 use crate::terminal::kind_name;
-use seam_cases::result::{CaseResult, Family, Plot};
+use seam_cases::result::{CaseResult, Family};
 use std::path::Path;
 
-/// Writes `errors.csv` and, per case, `<case>/curve-<plot>.csv` and `<case>/family-<claim>.csv`.
+/// Writes `errors.csv` and, per case, `<case>/family-<claim>.csv`.
 ///
 /// # Errors
 /// A file cannot be written.
@@ -13,9 +13,6 @@ pub fn write(results: &Results, cases: &[CaseResult], folder: &Path) -> Result<(
     write_whole(&folder.join("errors.csv"), &errors(results)?)?;
     for case in cases {
         let folder = folder.join(file_name(&case.id));
-        for plot in &case.curves {
-            write_whole(&folder.join(format!("curve-{}.csv", file_name(&plot.id))), &curve(plot)?)?;
-        }
         for family in &case.families {
             write_whole(&folder.join(format!("family-{}.csv", file_name(&family.claim))), &members(family)?)?;
         }
@@ -42,21 +39,6 @@ pub fn errors(results: &Results) -> Result<String, ResultsError> {
         })
     });
     text(header.split(',').map(str::to_owned).collect(), rows)
-}
-
-/// One row per point: series, role, x, y. Series have stations of their own, so they stand one below the other.
-///
-/// # Errors
-/// None in practice: the text is written to memory.
-pub fn curve(plot: &Plot) -> Result<String, ResultsError> {
-    let header = vec!["series".to_owned(), "role".to_owned(), plot.x_label.clone(), plot.y_label.clone()];
-    let rows = plot.series.iter().flat_map(|s| {
-        let role = format!("{:?}", s.role).to_lowercase();
-        s.x.iter()
-            .zip(&s.y)
-            .map(move |(x, y)| vec![s.name.clone(), role.clone(), format!("{x:?}"), format!("{y:?}")])
-    });
-    text(header, rows)
 }
 
 /// One row per member: axes, seed, particles, counted work, u, error under each reading, why it failed.

@@ -40,7 +40,7 @@ pub struct Provenance {
     pub command: String,
     /// Versions of the tools and libraries that matter for the numbers.
     pub versions: BTreeMap<String, String>,
-    /// SHA-256 of every reference file that was read.
+    /// SHA-256 of every reference file that was verified, by `<case>/<source>.{csv,toml}`.
     pub references: BTreeMap<String, String>,
     /// The part that differs from machine to machine and from run to run.
     pub machine: Machine,

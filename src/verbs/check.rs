@@ -1,26 +1,32 @@
 //! `seam check`: the error table, `results.json` and the exit code.
 
 use crate::args::Check;
-use crate::results;
+use crate::{references, results};
 use anyhow::Result;
 use seam_cases::result::CaseResult;
 use seam_reports::exit::Exit;
 use seam_reports::results::Results;
 use seam_reports::terminal::{self, Style};
+use std::collections::BTreeMap;
 use std::io::{IsTerminal, Write};
 use std::path::Path;
 
 /// Judges the results of a run.
 pub fn check(words: &Check) -> Result<Exit> {
+    let references = references::verified(&words.references)?;
     let cases = results::load(&words.from)?;
-    let judged = judge_into(&cases, &words.from)?;
+    let judged = judge_into(&cases, references, &words.from)?;
     print(&terminal::table(&judged, style()))?;
     Ok(judged.exit(words.strict))
 }
 
-/// Judges cases and writes `results.json`.
-pub fn judge_into(cases: &[CaseResult], folder: &Path) -> Result<Results> {
-    let judged = results::judged(cases)?;
+/// Judges cases, beside references of these hashes, and writes `results.json`.
+pub fn judge_into(
+    cases: &[CaseResult],
+    references: BTreeMap<String, String>,
+    folder: &Path,
+) -> Result<Results> {
+    let judged = results::judged(cases, references)?;
     judged.write(&folder.join("results.json"))?;
     Ok(judged)
 }

@@ -2,7 +2,7 @@
 
 use super::check::judge_into;
 use crate::args::Report;
-use crate::results;
+use crate::{references, results};
 use anyhow::Result;
 use seam_cases::result::CaseResult;
 use seam_reports::exit::Exit;
@@ -12,8 +12,9 @@ use std::path::Path;
 
 /// Writes the report from results that are there.
 pub fn report(words: &Report) -> Result<Exit> {
+    let references = references::verified(&words.references)?;
     let cases = results::load(&words.from)?;
-    let judged = judge_into(&cases, &words.from)?;
+    let judged = judge_into(&cases, references, &words.from)?;
     write(&judged, &cases, &words.from)?;
     eprintln!("{}", words.from.join("report.html").display());
     Ok(Exit::Pass)
