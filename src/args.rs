@@ -63,7 +63,7 @@ pub struct Validate {
 /// Option of everything that judges results.
 #[derive(Debug, Args)]
 pub struct ReferencesFolder {
-    /// Use the references of this folder (<case>/<source>.csv and .toml) instead of the built-in ones
+    /// Use the references of this folder (CASE/SOURCE.csv and .toml) instead of the built-in ones
     #[arg(long, value_name = "DIR")]
     pub references: Option<PathBuf>,
 }
