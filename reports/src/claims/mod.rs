@@ -124,6 +124,9 @@ fn find_unmeasured(family: &Family, settings: &[Setting<'_>], limit: Option<Need
     if settings.is_empty() {
         return Some("the family has no members".to_owned());
     }
+    if let Some(why) = family.members.iter().map(|m| m.failed.as_ref()).collect::<Option<Vec<_>>>() {
+        return Some(format!("no member of the family could be run: {}", why[0]));
+    }
     if !family.readings.contains_key(&family.main_reading) {
         return Some(format!("the main reading '{}' is not among the readings", family.main_reading));
     }

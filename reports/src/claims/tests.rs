@@ -94,3 +94,16 @@ fn an_own_claim_is_held_to_the_cost_of_the_paper_like_setting() {
     assert_eq!(judge(&own(401), Some(&paper)).verdict, ClaimVerdict::Contradicted);
     assert!(judge(&own(202), None).unmeasured.is_some(), "no paper-like setting, no comparison");
 }
+
+#[test]
+fn a_family_of_which_nothing_ran_is_unmeasured() {
+    let failed = |particles| Member {
+        failed: Some("the packing does not fit".into()),
+        errors: BTreeMap::new(),
+        ..member("full", particles, &[])
+    };
+    let j = judge(&family(vec![failed(57), failed(202)], 0.07), None);
+    assert!(j.reason.contains("no member of the family could be run: the packing"), "{}", j.reason);
+    let ran = member("full", 739, &[("a", 0.01), ("b", 0.01)]);
+    assert!(judge(&family(vec![failed(57), ran], 0.07), None).unmeasured.is_none());
+}
