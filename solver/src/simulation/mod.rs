@@ -1,0 +1,12 @@
+//! A run in time: a model, how it is stepped, and the switches from elements to particles on the way.
+//!
+//! [`plan`] says what to do, [`run`] does it and [`outcome`] is what comes out. Between two switches the model stays as it is and one
+//! of the schemes of [`crate::dynamics`] steps it; a switch builds the next model and hands over the motion ([`crate::transfer`]).
+
+pub mod outcome;
+pub mod plan;
+mod run;
+
+pub use outcome::{Energies, Outcome, Snapshot};
+pub use plan::{Plan, Step, Stepping, SwitchRule, When};
+pub use run::run;
