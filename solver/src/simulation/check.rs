@@ -60,7 +60,15 @@ fn stepping(plan: &Plan) -> Result<()> {
         }
         Stepping::Explicit { step } => length(step),
         Stepping::TwoRates { scheme: parameters, step_s, fine, .. } => {
-            scheme(parameters)?;
+            if parameters != Scheme::TRAPEZOIDAL {
+                return Err(number(
+                    "two rates",
+                    "beta",
+                    parameters.beta,
+                    "two rates know the trapezoidal rule for the elements: beta = 1/4, gamma = 1/2, alpha = 0; take it, or implicit \
+                     steps for all",
+                ));
+            }
             seconds(step_s)?;
             length(fine)
         }

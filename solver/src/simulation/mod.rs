@@ -11,10 +11,12 @@ mod implicit;
 pub mod outcome;
 pub mod plan;
 mod quasi_static;
+mod record;
 mod run;
 mod segment;
 mod start;
 mod switching;
+mod two_rates;
 
 pub use outcome::{Energies, Outcome, Snapshot};
 pub use plan::{Plan, Step, Stepping, SwitchRule, When};

@@ -4,18 +4,16 @@ use super::clock::Clock;
 use super::explicit::Central;
 use super::implicit::Implicit;
 use super::outcome::{Outcome, Snapshot};
-use super::plan::{Plan, Step, Stepping};
+use super::plan::{Plan, Stepping};
 use super::quasi_static::Equilibria;
+use super::record::Record;
 use super::segment::{Course, Ending, Stepper};
 use super::switching::Rules;
+use super::two_rates::TwoRates;
 use super::{check, start};
 use crate::dynamics::State;
-use crate::dynamics::critical;
-use crate::dynamics::semidiscrete::Semidiscrete;
 use crate::error::Error;
-use crate::model::Model;
-use crate::transfer::report::SwitchReport;
-use crate::work::Work;
+use crate::model::{Model, Part};
 use std::time::Instant;
 
 /// Runs a model from rest, or from the plan's velocities, at time zero to the end; `watch` sees the snapshots.
@@ -66,63 +64,6 @@ pub fn run<E: From<Error>>(
     }
 }
 
-/// What a run leaves behind.
-#[derive(Default)]
-struct Record {
-    work: Work,
-    notes: Vec<String>,
-    switches: Vec<(String, SwitchReport)>,
-    switch_seconds: f64,
-}
-
-impl Record {
-    fn note(&mut self, note: String) {
-        if !self.notes.contains(&note) {
-            self.notes.push(note);
-        }
-    }
-
-    fn assemble(&mut self, model: &Model) -> crate::error::Result<Semidiscrete> {
-        let system = Semidiscrete::new(model, &mut self.work)?;
-        system.notes.iter().for_each(|n| self.note(n.clone()));
-        Ok(system)
-    }
-
-    /// Equal steps from a state to the end of the plan, none longer than `longest` (s).
-    fn steps(&mut self, from: &State, plan: &Plan, longest: f64) -> Clock {
-        let clock = Clock::within(from.time, plan.end_s, longest);
-        self.note_steps(from, &clock, &format!("{longest:e} s asked"));
-        clock
-    }
-
-    /// As [`Record::steps`] for central differences.
-    fn explicit_steps(
-        &mut self,
-        model: &Model,
-        from: &State,
-        plan: &Plan,
-        step: Step,
-    ) -> crate::error::Result<Clock> {
-        let share = match step {
-            Step::Seconds(longest) => return Ok(self.steps(from, plan, longest)),
-            Step::ShareOfCritical(share) => share,
-        };
-        let critical = critical::bound(model)?;
-        let longest = share * plan.damping.step_factor() * critical.step_s;
-        let clock = Clock::strictly_within(from.time, plan.end_s, longest);
-        self.note_steps(
-            from,
-            &clock,
-            &format!("at most {share} of the critical step, set by {}", critical.what),
-        );
-        Ok(clock)
-    }
-
-    fn note_steps(&mut self, from: &State, clock: &Clock, asked: &str) {
-        self.note(format!("from {:e} s: {} steps of {:e} s ({asked})", from.time, clock.count, clock.step));
-    }
-}
-
 /// One stepper on one model.
 fn segment<E: From<Error>>(
     course: &mut Course,
@@ -137,7 +78,7 @@ fn segment<E: From<Error>>(
         record.work += stepper.work();
         ending
     };
-    match plan.stepping {
+    match stepping_of(model, plan) {
         Stepping::QuasiStatic { step_s } => {
             let system = record.assemble(model)?;
             let clock = record.steps(from, plan, step_s);
@@ -147,8 +88,8 @@ fn segment<E: From<Error>>(
         Stepping::Implicit { scheme, step_s } => {
             let system = record.assemble(model)?;
             let clock = record.steps(from, plan, step_s);
-            let rates = (scheme, plan.damping.rate());
-            let mut stepper = Implicit::new(&system, rates, &plan.loads, clock, from)?;
+            let scheme = (scheme, plan.damping.rate());
+            let mut stepper = Implicit::new(&system, scheme, &plan.loads, clock, from)?;
             follow(&mut stepper, &clock, record)
         }
         Stepping::Explicit { step } => {
@@ -157,9 +98,24 @@ fn segment<E: From<Error>>(
             stepper.0.system().notes.iter().for_each(|n| record.note(n.clone()));
             follow(&mut stepper, &clock, record)
         }
-        Stepping::TwoRates { .. } => {
-            let message = "two rates are not here yet; step implicitly or explicitly".to_owned();
-            Err(Error::Solve { message }.into())
+        Stepping::TwoRates { method, step_s, fine, .. } => {
+            let system = record.assemble(model)?;
+            let clock = record.steps(from, plan, step_s);
+            let ratio = record.ratio(model, from, &clock, fine)?;
+            let mut stepper = TwoRates::new(model, &system, (method, ratio), &plan.loads, clock, from)?;
+            follow(&mut stepper, &clock, record)
         }
+    }
+}
+
+/// Two rates need two sides: elements alone are stepped implicitly, particles alone explicitly.
+fn stepping_of(model: &Model, plan: &Plan) -> Stepping {
+    let particles = model.parts.iter().filter(|p| matches!(p, Part::Discrete { .. })).count();
+    match plan.stepping {
+        Stepping::TwoRates { scheme, step_s, .. } if particles == 0 => Stepping::Implicit { scheme, step_s },
+        Stepping::TwoRates { fine, .. } if particles == model.parts.len() => {
+            Stepping::Explicit { step: fine }
+        }
+        other => other,
     }
 }
