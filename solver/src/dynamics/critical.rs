@@ -53,8 +53,16 @@ impl CriticalStep {
 /// # Errors
 /// Bad elements; masses and bonds are assumed to be checked ([`System::new`]).
 pub fn bound(model: &Model) -> Result<CriticalStep> {
+    bound_of(model.parts.iter())
+}
+
+/// The bound for some parts, as [`bound`].
+///
+/// # Errors
+/// As [`bound`].
+pub fn bound_of<'a>(parts: impl Iterator<Item = &'a Part>) -> Result<CriticalStep> {
     let mut highest = (0.0, "nothing".to_owned());
-    for part in &model.parts {
+    for part in parts {
         let (omega2, at, noun) = match part {
             Part::Continuum(body) => {
                 let (omega2, at) = highest_element(body)?;

@@ -4,9 +4,11 @@ use crate::dynamics::State;
 use crate::model::Model;
 use crate::transfer::report::SwitchReport;
 use crate::work::Work;
+use serde::{Deserialize, Serialize};
 
 /// Energies since the start, in J.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub struct Energies {
     /// Kinetic energy.
     pub kinetic: f64,
