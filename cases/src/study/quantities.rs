@@ -2,7 +2,7 @@
 
 use super::Study;
 use super::convergence::Refined;
-use super::evaluate::{self, Solved, inside};
+use super::evaluate::{self, Solved, distance};
 use crate::error::Result;
 use crate::result::{Observation, ReferenceKind};
 use crate::scene::number::Number;
@@ -43,21 +43,20 @@ fn one(
     match (quantity.norm, refined) {
         (Some(norm), _) => {
             let reference = study.library.of(study.file, study.tally)?;
-            let (curve, u) = &reference.curves[&quantity.probe];
-            let own = solved.readings.curve(&quantity.probe);
-            let distance = own.and_then(|own| own.distance(curve, norm, inside(study.file, quantity.zone)));
+            let what = (quantity.probe.as_str(), norm, quantity.zone);
+            let distance = distance(study.file, &solved.readings, &reference, what);
             observation.value = distance
                 .ok_or_else(|| study.error(format!("quantity '{name}': its zone holds no station")))?;
             observation.kind = ReferenceKind::OwnFem;
             observation.source = reference.about.clone();
-            observation.u_ref = *u;
+            observation.u_ref = reference.curves[&quantity.probe].1;
         }
         (None, Some(refined)) if quantity.extrapolated => {
             observation.value = refined.estimate.value;
             observation.u_num = refined.estimate.u;
         }
         _ => {
-            let value = solved.readings.scalar(&quantity.probe);
+            let value = solved.readings.value(quantity);
             observation.value =
                 value.ok_or_else(|| study.error(format!("quantity '{name}' has no value")))?;
         }
@@ -80,7 +79,7 @@ fn compare(study: &Study, name: &str, quantity: &Quantity, observation: &mut Obs
         }
         None => {
             let reference = study.library.of(study.file, study.tally)?;
-            if let Some(estimate) = reference.scalars.get(&quantity.probe) {
+            if let Some(estimate) = reference.estimate(quantity) {
                 observation.reference = Some(estimate.value);
                 observation.u_ref = estimate.u;
             }

@@ -5,8 +5,9 @@ use super::richardson::{Estimate, extrapolate, observed_order};
 use super::{at_level, digest, resolution, variants};
 use crate::error::{Error, Result};
 use crate::file::SceneFile;
-use crate::observe::curve::Curve;
+use crate::observe::curve::{Axis, Curve};
 use crate::observe::probes::Reading;
+use crate::scene::quantity::Quantity;
 use crate::scene::study::ReferenceModel;
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, OnceLock};
@@ -16,10 +17,23 @@ use std::sync::{Arc, Mutex, OnceLock};
 pub struct Reference {
     /// Scalar probes.
     pub scalars: BTreeMap<String, Estimate>,
-    /// Line probes, with the standard uncertainty as a share of the largest value.
+    /// Probes along lines and over time, with the standard uncertainty as a share of the largest value.
     pub curves: BTreeMap<String, (Curve, f64)>,
     /// What it is, with its levels.
     pub about: String,
+}
+
+impl Reference {
+    /// What a quantity takes from its probe: a scalar, or one value of a history.
+    pub fn estimate(&self, quantity: &Quantity) -> Option<Estimate> {
+        if let Some(estimate) = self.scalars.get(&quantity.probe) {
+            return Some(*estimate);
+        }
+        let (curve, u) = self.curves.get(&quantity.probe)?;
+        let value = curve.take(quantity.take.unwrap_or_default())?;
+        let largest = curve.y.iter().fold(0.0f64, |m, y| m.max(y.abs()));
+        Some(Estimate { value, order: None, u: u * largest })
+    }
 }
 
 type Slot = Arc<OnceLock<std::result::Result<Arc<Reference>, String>>>;
@@ -124,6 +138,7 @@ fn extrapolate_curve(
     formal_order: f64,
 ) -> Option<(Curve, f64)> {
     let [c1, c2, c3] = [levels[0].curve(probe)?, levels[1].curve(probe)?, levels[2].curve(probe)?];
+    let [c1, c2, c3] = &at_shared_times([c1, c2, c3]);
     let difference =
         |a: &Curve, b: &Curve| a.y.iter().zip(&b.y).fold(0.0f64, |m, (a, b)| m.max((a - b).abs()));
     let (e32, e21) = (difference(c1, c2), difference(c2, c3));
@@ -138,5 +153,19 @@ fn extrapolate_curve(
     let shrink = 1.0 / (ratios[1].powf(p) - 1.0);
     let y = c2.y.iter().zip(&c3.y).map(|(f2, f3)| f3 - (f2 - f3) * shrink).collect();
     let safety = if near { 1.25 } else { 3.0 };
-    Some((Curve { x: c3.x.clone(), y }, 0.5 * safety * e21 * shrink / largest))
+    Some((Curve { axis: c3.axis, x: c3.x.clone(), y }, 0.5 * safety * e21 * shrink / largest))
+}
+
+/// Histories at the times of the finest level that lie inside of all; lines as they are.
+fn at_shared_times(levels: [&Curve; 3]) -> [Curve; 3] {
+    let finest = levels[2];
+    if finest.axis == Axis::Position {
+        return levels.map(Clone::clone);
+    }
+    let inside = |x: &f64| levels.iter().all(|level| level.at(*x).is_some());
+    let x: Vec<f64> = finest.x.iter().copied().filter(inside).collect();
+    levels.map(|level| {
+        let y = x.iter().filter_map(|x| level.at(*x)).collect();
+        Curve { axis: Axis::Time, x: x.clone(), y }
+    })
 }
