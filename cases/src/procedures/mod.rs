@@ -4,9 +4,12 @@
 
 mod bond_matrix;
 mod calculix;
+mod compared;
 mod homogenisation;
 mod lattice_constants;
 mod manufactured;
+mod straight;
+mod time_step_orders;
 
 use crate::error::{Error, Fault, Result};
 use crate::file::SceneFile;
@@ -26,6 +29,7 @@ const REGISTRY: &[(&str, Procedure)] = &[
     ("homogenisation", homogenisation::run),
     ("lattice-constants", lattice_constants::run),
     ("manufactured", manufactured::run),
+    ("time-step-orders", time_step_orders::run),
 ];
 
 /// Names a scene may give as its procedure.
