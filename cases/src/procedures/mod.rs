@@ -6,8 +6,10 @@ mod bond_matrix;
 mod calculix;
 mod compared;
 mod homogenisation;
+mod interface_reflection;
 mod lattice_constants;
 mod manufactured;
+mod scattering;
 mod straight;
 mod time_step_orders;
 
@@ -27,6 +29,7 @@ const REGISTRY: &[(&str, Procedure)] = &[
     ("bond-matrix", bond_matrix::run),
     ("calculix", calculix::run),
     ("homogenisation", homogenisation::run),
+    ("interface-reflection", interface_reflection::run),
     ("lattice-constants", lattice_constants::run),
     ("manufactured", manufactured::run),
     ("time-step-orders", time_step_orders::run),
