@@ -11,6 +11,7 @@ mod lattice_constants;
 mod manufactured;
 mod scattering;
 mod straight;
+mod subcycling;
 mod time_step_orders;
 
 use crate::error::{Error, Fault, Result};
@@ -32,6 +33,7 @@ const REGISTRY: &[(&str, Procedure)] = &[
     ("interface-reflection", interface_reflection::run),
     ("lattice-constants", lattice_constants::run),
     ("manufactured", manufactured::run),
+    ("subcycling", subcycling::run),
     ("time-step-orders", time_step_orders::run),
 ];
 
