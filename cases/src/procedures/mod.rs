@@ -4,6 +4,7 @@
 
 mod bond_matrix;
 mod calculix;
+mod cantilever_eigenfrequencies;
 mod compared;
 mod homogenisation;
 mod interface_reflection;
@@ -29,6 +30,7 @@ type Procedure = fn(&Setting, &mut CaseResult) -> Result<()>;
 const REGISTRY: &[(&str, Procedure)] = &[
     ("bond-matrix", bond_matrix::run),
     ("calculix", calculix::run),
+    ("cantilever-eigenfrequencies", cantilever_eigenfrequencies::run),
     ("homogenisation", homogenisation::run),
     ("interface-reflection", interface_reflection::run),
     ("lattice-constants", lattice_constants::run),
