@@ -2,10 +2,13 @@
 //!
 //! A new procedure is one file and one line of the registry.
 
+mod bar_impact;
+mod bar_sudden_load;
 mod bond_matrix;
 mod calculix;
 mod cantilever_eigenfrequencies;
 mod compared;
+mod elastic_bar;
 mod homogenisation;
 mod interface_reflection;
 mod lattice_constants;
@@ -28,6 +31,8 @@ type Procedure = fn(&Setting, &mut CaseResult) -> Result<()>;
 
 /// Names and procedures that need no bodies.
 const REGISTRY: &[(&str, Procedure)] = &[
+    ("bar-impact", bar_impact::run),
+    ("bar-sudden-load", bar_sudden_load::run),
     ("bond-matrix", bond_matrix::run),
     ("calculix", calculix::run),
     ("cantilever-eigenfrequencies", cantilever_eigenfrequencies::run),
