@@ -9,11 +9,14 @@ mod calculix;
 mod cantilever_eigenfrequencies;
 mod compared;
 mod elastic_bar;
+mod elastica;
 mod homogenisation;
 mod interface_reflection;
 mod lattice_constants;
 mod manufactured;
+mod roll_up;
 mod scattering;
+mod slender;
 mod straight;
 mod subcycling;
 mod time_step_orders;
@@ -36,10 +39,12 @@ const REGISTRY: &[(&str, Procedure)] = &[
     ("bond-matrix", bond_matrix::run),
     ("calculix", calculix::run),
     ("cantilever-eigenfrequencies", cantilever_eigenfrequencies::run),
+    ("elastica", elastica::run),
     ("homogenisation", homogenisation::run),
     ("interface-reflection", interface_reflection::run),
     ("lattice-constants", lattice_constants::run),
     ("manufactured", manufactured::run),
+    ("roll-up", roll_up::run),
     ("subcycling", subcycling::run),
     ("time-step-orders", time_step_orders::run),
 ];
