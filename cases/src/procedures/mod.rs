@@ -14,9 +14,11 @@ mod homogenisation;
 mod interface_reflection;
 mod lattice_constants;
 mod manufactured;
+mod rigid_rotation;
 mod roll_up;
 mod scattering;
 mod slender;
+mod specimen;
 mod straight;
 mod subcycling;
 mod time_step_orders;
@@ -44,6 +46,7 @@ const REGISTRY: &[(&str, Procedure)] = &[
     ("interface-reflection", interface_reflection::run),
     ("lattice-constants", lattice_constants::run),
     ("manufactured", manufactured::run),
+    ("rigid-rotation", rigid_rotation::run),
     ("roll-up", roll_up::run),
     ("subcycling", subcycling::run),
     ("time-step-orders", time_step_orders::run),
