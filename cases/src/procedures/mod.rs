@@ -13,6 +13,7 @@ mod elastica;
 mod homogenisation;
 mod interface_reflection;
 mod lattice_constants;
+mod long_run;
 mod manufactured;
 mod rigid_rotation;
 mod roll_up;
@@ -45,6 +46,7 @@ const REGISTRY: &[(&str, Procedure)] = &[
     ("homogenisation", homogenisation::run),
     ("interface-reflection", interface_reflection::run),
     ("lattice-constants", lattice_constants::run),
+    ("long-run", long_run::run),
     ("manufactured", manufactured::run),
     ("rigid-rotation", rigid_rotation::run),
     ("roll-up", roll_up::run),
