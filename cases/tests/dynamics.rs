@@ -232,7 +232,9 @@ fn a_switch_is_recorded_and_read() {
 /// A ramp of equilibria: the clamp bears the load at every time, also where particles have taken it over.
 #[test]
 fn the_clamp_bears_the_load_before_and_after_a_switch_at_the_clamp() {
-    let quasi_static = ["dynamics.stepping=quasi-static", "switches.middle.box.min[0]=0"];
+    // Eight periods: at two, inertia would sway by 8 %.
+    let quasi_static =
+        ["dynamics.stepping=quasi-static", "switches.middle.box.min[0]=0", "parameters.ramp_periods=8"];
     let result = run(&quasi_static);
     assert_eq!(value(&result, "left-end"), 0.0);
     let (root, load) = (own(&result, "root"), own(&result, "load"));
@@ -259,14 +261,16 @@ fn other_steppings_come_to_the_same_deflection() {
     let implicit = value(&run(&[]), "deflection");
     let explicit = ["dynamics.stepping=explicit", "dynamics.step_share=0.8", "dynamics.step_s=none"];
     let two_rates = ["dynamics.stepping=two-rates", "dynamics.fine_share=0.8"];
-    for changes in [&explicit[..], &two_rates] {
+    // The implicit step of a hundredth of the period lengthens it by π²/3·10⁻⁴. Two rates tie velocities: displacements
+    // drift, and the interface does some per cent of the physical work.
+    for (changes, limit) in [(&explicit[..], 1e-3), (&two_rates, 5e-3)] {
         let result = run(changes);
         let off = (value(&result, "deflection") / implicit - 1.0).abs();
-        // The implicit step of a hundredth of the period lengthens it by π²/3·10⁻⁴.
-        assert!(off < 2e-3, "{changes:?} {off}");
-        // Other steps, and yet the error of the particles is the same to a tenth of it.
-        assert!((value(&result, "tip") - 0.003).abs() < 6e-4, "{}", value(&result, "tip"));
+        assert!(off > 0.0 && off < limit, "{changes:?} {off}");
     }
+    // Other steps than the reference of its own, and yet the error of the particles is the same to a tenth of it.
+    let off = value(&run(&explicit), "tip-end") / value(&run(&[]), "tip-end") - 1.0;
+    assert!(off.abs() < 0.1, "{off}");
 }
 
 #[test]
@@ -289,8 +293,13 @@ fn studies_work_on_histories() {
 fn a_criterion_switches_again() {
     let at = BEAM.find("at_load").unwrap();
     let until = BEAM.find("fields = ").unwrap();
-    let criterion = "criterion = { stress = { strength_Pa = 3e6, length_m = 0.025 }, trigger = 0.5, every_s = \"period_s/10\", most = 3 }\n";
+    let criterion = "criterion = { stress = { strength_Pa = 3e6, length_m = 0.025 }, trigger = 0.5, buffer_m = \"height_m\", every_s = \"period_s/10\", most = 3 }\n";
+    // A square lattice fits every box of square elements.
+    let square =
+        "arrangement = \"square\", rows = \"rows\", bond = { calibrate = \"young\", radius_ratio = 0.6 }";
     let text = format!("{}{criterion}{}", &BEAM[..at], &BEAM[until..]);
+    let de = text.find("de = {").unwrap();
+    let text = format!("{}de = {{ {square} }}\n{}", &text[..de], &text[text.find("[probes.tip]").unwrap()..]);
     let file = read(&text, &["quantities={}", "budgets={}", "costs={}"]).unwrap();
     let result = seam_cases::procedures::run(&file, Tier::Quick).unwrap().result;
     let names: Vec<&str> = result.switches.iter().map(|s| s.name.as_str()).collect();
