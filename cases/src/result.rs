@@ -206,7 +206,7 @@ pub struct Plot {
 /// Elements that became particles, and what that did.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct SwitchRecord {
-    /// Name in the scene file.
+    /// Name in the scene file, with a number from the second switch of a rule on.
     pub name: String,
     /// Time, in s.
     pub time_s: f64,

@@ -14,7 +14,6 @@ use seam_solver::dynamics::forces::Rotations;
 use seam_solver::dynamics::load::LoadFactor;
 use seam_solver::dynamics::multirate;
 use seam_solver::dynamics::newmark::Scheme;
-use seam_solver::error::Error;
 use seam_solver::model::Model;
 use seam_solver::simulation::{self, Outcome, Plan, Snapshot, Step, Stepping};
 use seam_solver::space::Vec3;
@@ -33,26 +32,14 @@ pub fn run(
     built: &mut Built,
     watch: &mut dyn FnMut(&Snapshot) -> Result<()>,
 ) -> Result<Outcome> {
-    // The error of `watch` goes round the solver, which cannot carry it.
-    let mut failed = None;
-    let outcome = through(file, dynamics, built, &mut |snapshot| {
-        watch(snapshot).map_err(|error| {
-            let message = error.to_string();
-            failed = Some(error);
-            Error::Solve { message }
-        })
-    });
-    match failed {
-        Some(error) => Err(error),
-        None => outcome.map_err(|refusal| refusal.of(file)),
-    }
+    through(file, dynamics, built, watch).map_err(|refusal| refusal.of(file))
 }
 
 fn through(
     file: &SceneFile,
     dynamics: &Dynamics,
     built: &mut Built,
-    watch: &mut dyn FnMut(&Snapshot) -> seam_solver::error::Result<()>,
+    watch: &mut dyn FnMut(&Snapshot) -> Result<()>,
 ) -> std::result::Result<Outcome, Refusal> {
     let context = Context::new(file)?;
     let number = |number: &Number, key: &str| number.value(context.values, &format!("dynamics.{key}"));
@@ -78,11 +65,11 @@ fn through(
         outputs: dynamics.outputs.count(context.values, 1, "dynamics.outputs")?,
         switches: fillings.iter().zip(&fills).map(|(filling, fill)| filling.rule(fill)).collect(),
     };
-    let outcome = simulation::run(built.model.clone(), &plan, watch);
+    let outcome = simulation::run(built.model.clone(), &plan, &mut |snapshot| Ok(watch(snapshot)?));
     drop(plan);
     drop(fills);
     built.notes.extend(fillings.into_iter().flat_map(Filling::into_notes));
-    Ok(outcome?)
+    outcome
 }
 
 fn stepping(context: &Context, dynamics: &Dynamics) -> std::result::Result<Stepping, Fault> {

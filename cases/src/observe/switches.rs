@@ -9,7 +9,7 @@ use seam_solver::transfer::report::{Balance, InterfaceForce, SwitchReport};
 /// Switches of a run, with what their numbers are relative to.
 #[derive(Debug, Clone, Default)]
 pub struct Switches {
-    /// Name of the rule and report of each switch, in order.
+    /// Name of the body that came and report of each switch, in order.
     pub reports: Vec<(String, SwitchReport)>,
     /// Largest extent of the bodies, in m: lever of angular momentum.
     pub extent: f64,
@@ -23,7 +23,7 @@ impl Switches {
         if read == Read::SwitchShareOfTime {
             return Some(self.share_of_time);
         }
-        let own = self.reports.iter().filter(|(name, _)| rule.is_none_or(|rule| rule == name));
+        let own = self.reports.iter().filter(|(name, _)| rule.is_none_or(|rule| belongs(name, rule)));
         let values = own.map(|(_, report)| self.value(read, report));
         values.reduce(|a, b| if a.is_nan() || a.abs() >= b.abs() { a } else { b })
     }
@@ -71,6 +71,12 @@ impl Switches {
             _ => f64::NAN,
         }
     }
+}
+
+/// A rule that switches again adds a number to its name: `middle`, `middle-2`.
+fn belongs(name: &str, rule: &str) -> bool {
+    let number = name.strip_prefix(rule).and_then(|rest| rest.strip_prefix('-'));
+    name == rule || number.is_some_and(|n| n.parse::<usize>().is_ok())
 }
 
 /// Largest side of the box around all bodies, in m.

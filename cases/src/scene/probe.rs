@@ -160,6 +160,14 @@ impl Read {
         }
     }
 
+    /// Whether the same thing can be read off a reference model without switches: not what tells of particles and ties.
+    pub fn has_counterpart(self) -> bool {
+        !matches!(
+            self,
+            Self::EnergyClosure | Self::Gap | Self::LoadFactor | Self::LargestBondStress | Self::Particles
+        )
+    }
+
     /// Whether it is the distance from an exact displacement.
     pub fn is_error(self) -> bool {
         matches!(self, Self::DisplacementError | Self::DisplacementErrorRms)

@@ -39,8 +39,9 @@ fn plot(study: &Study, solved: &Solved, name: &str, (probe, curve): (&Probe, &Cu
         x: curve.x.clone(),
         y: curve.y.clone(),
     };
-    let mut all = vec![series("coupled", Role::Model, curve)];
-    if study.file.scene.reference.is_some() {
+    let own = if study.file.scene.switches.is_empty() { "coupled" } else { "switched" };
+    let mut all = vec![series(own, Role::Model, curve)];
+    if study.file.scene.reference.is_some() && probe.read.has_counterpart() {
         let reference = study.library.of(study.file, study.tally)?;
         if let Some((curve, _)) = reference.curves.get(name) {
             all.push(series("reference", Role::Reference, curve));
