@@ -18,12 +18,19 @@ type Numbers<const K: usize> = [[f64; LANES]; K];
 
 #[inline(always)]
 fn lane<const K: usize>(numbers: &Numbers<K>, l: usize) -> [f64; K] {
-    from_fn(|k| numbers[k][l])
+    // Not `from_fn`: where it is not inlined, the loop over the lanes stays scalar.
+    let mut values = [0.0; K];
+    for k in 0..K {
+        values[k] = numbers[k][l];
+    }
+    values
 }
 
 #[inline(always)]
 fn set_lane<const K: usize>(numbers: &mut Numbers<K>, l: usize, values: [f64; K]) {
-    (0..K).for_each(|k| numbers[k][l] = values[k]);
+    for k in 0..K {
+        numbers[k][l] = values[k];
+    }
 }
 
 /// Up to [`LANES`] bonds; unused lanes hold a bond without stiffness.
@@ -127,9 +134,15 @@ impl WithSimd for AllLanes<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        for l in 0..LANES {
-            let (stretch, turned) = self.pose.get(l);
-            self.loads.set(l, self.batch.bond(l).loads::<Small>(stretch, turned));
-        }
+        all_lanes(self.batch, self.pose, self.loads);
+    }
+}
+
+/// A function of its own: references as arguments tell the compiler that nothing overlaps, fields do not.
+#[inline(always)]
+fn all_lanes(batch: &Batch, pose: &Pose, loads: &mut BatchLoads) {
+    for l in 0..LANES {
+        let (stretch, turned) = pose.get(l);
+        loads.set(l, batch.bond(l).loads::<Small>(stretch, turned));
     }
 }

@@ -110,7 +110,8 @@ impl FiniteBond {
         let length = d.norm();
         let inverse = 1.0 / length;
         let e = d * inverse;
-        let [t1, t2] = turned.map(|q| direction(q, &self.n));
+        // Written out: `map` is not inlined into a loop over lanes.
+        let (t1, t2) = (direction(turned[0], &self.n), direction(turned[1], &self.n));
         let (end1, end2) = (End::new::<A>(&e, &t1), End::new::<A>(&e, &t2));
         let a1 = end1.across(end1.p * self.sum + end2.p * self.difference);
         let a2 = end2.across(end2.p * self.sum + end1.p * self.difference);
