@@ -2,6 +2,10 @@
 //!
 //! A new procedure is one file and one line of the registry.
 
+pub(crate) mod bond_for_bond;
+mod bond_for_bond_dynamic;
+mod bond_for_bond_networks;
+mod bond_for_bond_static;
 mod bond_matrix;
 mod calculix;
 mod homogenisation;
@@ -21,6 +25,8 @@ type Procedure = fn(&Setting, &mut CaseResult) -> Result<()>;
 
 /// Names and procedures that need no bodies.
 const REGISTRY: &[(&str, Procedure)] = &[
+    (bond_for_bond::STATIC, bond_for_bond_static::run),
+    (bond_for_bond::DYNAMIC, bond_for_bond_dynamic::run),
     ("bond-matrix", bond_matrix::run),
     ("calculix", calculix::run),
     ("homogenisation", homogenisation::run),
