@@ -50,6 +50,9 @@ pub struct CaseResult {
     pub costs: Vec<CostDiagram>,
     /// Bodies drawn from the model.
     pub pictures: Vec<Picture>,
+    /// Elements that became particles on the way, in order.
+    #[serde(default)]
+    pub switches: Vec<SwitchRecord>,
     /// Counted work of all runs of the case.
     pub work: Work,
     /// Wall time of the case, in seconds. Not deterministic.
@@ -103,6 +106,8 @@ pub enum ReferenceKind {
     Prototype,
     /// A measurement.
     Experiment,
+    /// Seam itself with other settings: shows a difference, not an accuracy.
+    OwnRun,
     /// Our own last accepted value.
     Regression,
 }
@@ -196,6 +201,44 @@ pub struct Plot {
     pub shaded: Vec<[f64; 2]>,
     /// The series.
     pub series: Vec<Series>,
+}
+
+/// Elements that became particles, and what that did.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct SwitchRecord {
+    /// Name in the scene file, with a number from the second switch of a rule on.
+    pub name: String,
+    /// Time, in s.
+    pub time_s: f64,
+    /// Elements that went.
+    pub elements: usize,
+    /// Particles that came.
+    pub particles: usize,
+    /// Unbalanced over internal forces.
+    pub unbalanced: Stages,
+    /// Strain energy, in J.
+    pub strain_energy: Stages,
+    /// Kinetic energy, in J.
+    pub kinetic_energy: Stages,
+    /// Jump of the strain energy over the energy before.
+    pub strain_energy_jump: f64,
+    /// Jump of the momentum over `Σ m|v|`.
+    pub momentum_jump: f64,
+    /// Jump of the angular momentum over `Σ m|v|` times the largest extent of the bodies.
+    pub angular_momentum_jump: f64,
+    /// Jump of the force through each coupled face over the largest such force before.
+    pub reaction_jump: BTreeMap<String, f64>,
+}
+
+/// A number on the way through a switch.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+pub struct Stages {
+    /// Of the elements.
+    pub before: f64,
+    /// Of the particles with the fields they took over.
+    pub mapped: f64,
+    /// Of the particles as the run goes on.
+    pub after: f64,
 }
 
 /// A claim checked over a family of settings.

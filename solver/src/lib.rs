@@ -12,6 +12,7 @@ pub mod error;
 pub mod fem;
 pub mod files;
 pub mod model;
+pub mod simulation;
 pub mod solve;
 pub mod space;
 pub mod transfer;

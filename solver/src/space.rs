@@ -5,6 +5,20 @@ use serde::{Deserialize, Serialize};
 /// A point, displacement, force … of three components; in the plane the third one is zero.
 pub type Vec3 = nalgebra::Vector3<f64>;
 
+/// A [`Vec3`] in a file is its three components: `#[serde(with = "components")]`.
+pub(crate) mod components {
+    use super::Vec3;
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    pub fn serialize<S: Serializer>(x: &Vec3, serializer: S) -> Result<S::Ok, S::Error> {
+        [x.x, x.y, x.z].serialize(serializer)
+    }
+
+    pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec3, D::Error> {
+        <[f64; 3]>::deserialize(deserializer).map(Vec3::from)
+    }
+}
+
 /// Plane or solid: how many displacements and rotations a point carries.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]

@@ -34,8 +34,9 @@ pub struct ExpressionError {
 pub type Values = BTreeMap<String, f64>;
 
 /// Names that mean something in every expression and so cannot be parameters.
-pub const RESERVED: [&str; 15] =
-    ["x", "y", "z", "pi", "sqrt", "abs", "min", "max", "sin", "cos", "tan", "exp", "log", "ceil", "round"];
+pub const RESERVED: [&str; 16] = [
+    "x", "y", "z", "t", "pi", "sqrt", "abs", "min", "max", "sin", "cos", "tan", "exp", "log", "ceil", "round",
+];
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Function {

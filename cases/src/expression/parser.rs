@@ -164,7 +164,7 @@ impl<'a> Parser<'a> {
     fn call(&mut self, word: &str, start: usize) -> Result<(), ExpressionError> {
         let Some(function) = Function::named(word) else {
             self.at = start;
-            let known = hint(word, RESERVED[4..].iter().copied());
+            let known = hint(word, RESERVED[5..].iter().copied());
             return Err(self.fail(&format!("unknown function '{word}'; {known}")));
         };
         self.at += 1;

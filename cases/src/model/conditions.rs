@@ -20,18 +20,28 @@ pub fn ties(context: &Context) -> Result<Vec<Tie>, Refusal> {
         name: name.clone(),
         first: side(&tie.faces[0]),
         second: side(&tie.faces[1]),
-        method: match tie.method {
-            TieMethod::Pointwise => coupling::Method::Pointwise,
-            TieMethod::Mortar => coupling::Method::Mortar,
-        },
-        multipliers: match tie.multipliers {
-            Multipliers::Auto => coupling::Multipliers::Auto,
-            Multipliers::First => coupling::Multipliers::First,
-            Multipliers::Second => coupling::Multipliers::Second,
-        },
+        method: method(tie.method),
+        multipliers: multipliers(tie.multipliers),
         rotations: tie.rotations,
     };
     Ok(context.scene.ties.iter().map(tie).collect())
+}
+
+/// The solver's name of a tie's method.
+pub fn method(method: TieMethod) -> coupling::Method {
+    match method {
+        TieMethod::Pointwise => coupling::Method::Pointwise,
+        TieMethod::Mortar => coupling::Method::Mortar,
+    }
+}
+
+/// The solver's name of the side that carries the multipliers.
+pub fn multipliers(side: Multipliers) -> coupling::Multipliers {
+    match side {
+        Multipliers::Auto => coupling::Multipliers::Auto,
+        Multipliers::First => coupling::Multipliers::First,
+        Multipliers::Second => coupling::Multipliers::Second,
+    }
 }
 
 /// Component of a support among the unknowns of a point; `None` where the space or part has none.
@@ -43,9 +53,9 @@ fn component(space: Space, part: &Part, index: usize) -> Option<usize> {
     matches!(part, Part::Discrete { .. }).then_some(space.dim() + rotation)
 }
 
-/// Prescribed displacements and rotations. `uz` in the plane and rotations of nodes do not exist and
+/// Prescribed displacements and rotations, with the names of their supports. `uz` in the plane and rotations of nodes do not exist and
 /// are passed over, so that a scene can change its space or method.
-pub fn supports(context: &Context, parts: &[Part]) -> Result<Vec<PointValue>, Refusal> {
+pub fn supports(context: &Context, parts: &[Part]) -> Result<Vec<(String, PointValue)>, Refusal> {
     let mut supports = Vec::new();
     for (name, support) in &context.scene.supports {
         let place = place::find(context, parts, &support.on, &format!("supports.{name}.on"))?;
@@ -57,7 +67,7 @@ pub fn supports(context: &Context, parts: &[Part]) -> Result<Vec<PointValue>, Re
             for &point in &place.points {
                 let key = format!("supports.{name}.{key}");
                 let value = number.at(part.positions()[point], context.values, &key)?;
-                supports.push(PointValue { part: place.part, point, component, value });
+                supports.push((name.clone(), PointValue { part: place.part, point, component, value }));
             }
         }
     }

@@ -5,6 +5,8 @@ mod conditions;
 mod mesh;
 mod particles;
 mod place;
+mod switches;
+pub mod time;
 
 use crate::error::{Error, Fault, Result};
 use crate::expression::Values;
@@ -21,6 +23,8 @@ use seam_solver::space::{Space, Vec3};
 pub struct Built {
     /// The model; its parts are in the alphabetical order of the scene's bodies.
     pub model: Model,
+    /// Name of the support behind each entry of the model's supports.
+    pub held_by: Vec<String>,
     /// Packings, calibrations: what a reader must know.
     pub notes: Vec<String>,
 }
@@ -39,6 +43,16 @@ pub(crate) enum Refusal {
     Scene(Fault),
     Solver(seam_solver::error::Error),
     File(Error),
+}
+
+impl Refusal {
+    fn of(self, file: &SceneFile) -> Error {
+        match self {
+            Self::Scene(fault) => file.error(fault),
+            Self::Solver(error) => file.solver(error),
+            Self::File(error) => error,
+        }
+    }
 }
 
 impl From<Fault> for Refusal {
@@ -64,11 +78,7 @@ impl From<Error> for Refusal {
 /// # Errors
 /// A fault of the scene that only shows here, or what the solver refuses.
 pub fn build(file: &SceneFile) -> Result<Built> {
-    assemble(file).map_err(|refusal| match refusal {
-        Refusal::Scene(fault) => file.error(fault),
-        Refusal::Solver(error) => file.solver(error),
-        Refusal::File(error) => error,
-    })
+    assemble(file).map_err(|refusal| refusal.of(file))
 }
 
 fn assemble(file: &SceneFile) -> std::result::Result<Built, Refusal> {
@@ -86,9 +96,9 @@ fn assemble(file: &SceneFile) -> std::result::Result<Built, Refusal> {
         check_size(&file.scene, &parts[parts.len() - 1])?;
     }
     let ties = conditions::ties(&context)?;
-    let supports = conditions::supports(&context, &parts)?;
+    let (held_by, supports) = conditions::supports(&context, &parts)?.into_iter().unzip();
     let loads = conditions::loads(&context, &parts)?;
-    Ok(Built { model: Model { space: context.space, parts, ties, supports, loads }, notes })
+    Ok(Built { model: Model { space: context.space, parts, ties, supports, loads }, held_by, notes })
 }
 
 fn check_size(scene: &Scene, part: &Part) -> std::result::Result<(), Fault> {

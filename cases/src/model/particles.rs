@@ -40,9 +40,21 @@ pub fn network(
     let min = context.vector(&shape.min, &format!("{key}.box.min"))?;
     let max = context.vector(&shape.max, &format!("{key}.box.max"))?;
     let block = Block::new(context.space, min, max)?;
+    let rows = de.rows.count(context.values, 1, &format!("{key}.de.rows"))?;
+    fill(context, &key, (body, de), (block, rows), notes)
+}
+
+/// Particles in a box, `rows` spacings across its height; `key` is the table that holds the section `de`.
+pub fn fill(
+    context: &Context,
+    key: &str,
+    (body, de): (&Body, &De),
+    (block, rows): (Block, usize),
+    notes: &mut Vec<String>,
+) -> Result<Network, Refusal> {
     let elasticity = context.elasticity(body)?;
     let matter = Matter { density: elasticity.density, thickness_m: context.hypothesis.thickness() };
-    let filling = arrange(context, &key, de, block, matter, notes)?;
+    let filling = arrange(context, key, de, (block, rows), matter, notes)?;
     let (count, limit) = (filling.arrangement.particles.len(), context.scene.limits.particles);
     if count > limit {
         let message = format!("{count} particles are more than the limit of {limit}");
@@ -54,7 +66,7 @@ pub fn network(
         .into());
     }
     let target = Target { elasticity, hypothesis: context.hypothesis, thickness_m: matter.thickness_m };
-    let recipe = recipe(context, &key, de, &filling.made, &target, notes)?;
+    let recipe = recipe(context, key, de, &filling.made, &target, notes)?;
     Ok(bonding::bond_network(&filling.arrangement, &filling.pairs, &recipe)?)
 }
 
@@ -76,11 +88,10 @@ fn arrange(
     context: &Context,
     key: &str,
     de: &De,
-    block: Block,
+    (block, rows): (Block, usize),
     matter: Matter,
     notes: &mut Vec<String>,
 ) -> Result<Filling, Refusal> {
-    let rows = de.rows.count(context.values, 1, &format!("{key}.de.rows"))?;
     if let Some(kind) = lattice_kind(de) {
         let lattice = lattice(kind, block, rows, matter)?;
         let spacing = 2.0 * lattice.arrangement.particles.radius[0];
@@ -91,7 +102,7 @@ fn arrange(
             made: Made::Lattice(unit),
         });
     }
-    let protocol = Protocol::of(context, key, de, block.sides().y)?;
+    let protocol = Protocol::of(context, key, de, 0.5 * block.sides().y / rows as f64)?;
     let recipe = PackingRecipe {
         space: context.space,
         block,
@@ -148,15 +159,14 @@ pub struct Protocol {
 }
 
 impl Protocol {
-    fn of(context: &Context, key: &str, de: &De, height: f64) -> Result<Self, Fault> {
-        let rows = de.rows.count(context.values, 1, &format!("{key}.de.rows"))?;
+    fn of(context: &Context, key: &str, de: &De, mean_radius_m: f64) -> Result<Self, Fault> {
         let (fraction, coordination) = match context.space {
             Space::Plane => (0.84, 4.5),
             Space::Solid => (0.64, 6.2),
         };
         let mut protocol = Self {
             space: context.space,
-            mean_radius_m: 0.5 * height / rows as f64,
+            mean_radius_m,
             solid_fraction: fraction,
             radius_spread: 0.2,
             seed: 1,

@@ -1,32 +1,109 @@
-//! A value along a line, and its distance from a reference.
+//! A value along a line or over time, and its distance from a reference.
 
-use crate::scene::quantity::Norm;
+use crate::scene::quantity::{Norm, Take};
 
 /// Stations with a reference below this share of the largest one say nothing about a relative error.
 const SMALL: f64 = 0.05;
+/// A station counts as inside within this share of the range: sums of time steps round.
+const ROUNDING: f64 = 1e-9;
 
-/// A value at stations along a line.
+/// What a curve runs along.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum Axis {
+    /// A line through the bodies, in m.
+    #[default]
+    Position,
+    /// Time, in s.
+    Time,
+}
+
+impl Axis {
+    /// Name and unit.
+    pub fn label(self) -> &'static str {
+        match self {
+            Self::Position => "x (m)",
+            Self::Time => "Time t (s)",
+        }
+    }
+}
+
+/// A value at stations.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Curve {
-    /// Positions of the stations along x, in m.
+    /// What it runs along.
+    pub axis: Axis,
+    /// Stations: positions along x in m, or times in s.
     pub x: Vec<f64>,
     /// Values.
     pub y: Vec<f64>,
 }
 
 impl Curve {
-    /// Distance from `reference`, given at the same stations, over those for which `inside(x)`;
-    /// a fraction. `None` if the zone holds no station, or none with a reference to relate to.
-    pub fn distance(&self, reference: &Curve, norm: Norm, inside: impl Fn(f64) -> bool) -> Option<f64> {
-        if self.x.len() != reference.x.len() {
+    /// A history without values yet.
+    pub fn history() -> Self {
+        Self { axis: Axis::Time, ..Self::default() }
+    }
+
+    /// One value of a history; `None` for a curve along a line, or an empty one.
+    pub fn take(&self, take: Take) -> Option<f64> {
+        if self.axis != Axis::Time {
             return None;
         }
+        let values = self.y.iter().copied();
+        match take {
+            Take::End => self.y.last().copied(),
+            Take::Largest => values.reduce(nan_max),
+            Take::Smallest => values.map(|y| -y).reduce(nan_max).map(|y| -y),
+            Take::LargestMagnitude => {
+                values.reduce(|a, b| if a.is_nan() || a.abs() >= b.abs() { a } else { b })
+            }
+        }
+    }
+
+    /// Linear in between; `None` outside.
+    pub fn at(&self, x: f64) -> Option<f64> {
+        let (first, last) = (*self.x.first()?, *self.x.last()?);
+        let margin = ROUNDING * (last - first);
+        if !(first - margin <= x && x <= last + margin) {
+            return None;
+        }
+        match self.x.partition_point(|s| *s <= x) {
+            0 => self.y.first().copied(),
+            after if after == self.x.len() => self.y.last().copied(),
+            after => {
+                let (x0, x1) = (self.x[after - 1], self.x[after]);
+                Some(self.y[after - 1] + (self.y[after] - self.y[after - 1]) * (x - x0) / (x1 - x0))
+            }
+        }
+    }
+
+    /// Last station of `other` that lies inside of this curve.
+    pub fn last_shared(&self, other: &Curve) -> Option<f64> {
+        other.x.iter().rev().copied().find(|x| self.at(*x).is_some())
+    }
+
+    /// `(station, own value, reference value)`: lines have the same stations; histories are read at the reference's
+    /// times, as far as they overlap.
+    fn beside(&self, reference: &Curve) -> Vec<[f64; 3]> {
+        let theirs = reference.x.iter().zip(&reference.y);
+        match self.axis {
+            Axis::Time => theirs.filter_map(|(&x, &r)| Some([x, self.at(x)?, r])).collect(),
+            Axis::Position if self.x.len() == reference.x.len() => {
+                self.y.iter().zip(theirs).map(|(&s, (&x, &r))| [x, s, r]).collect()
+            }
+            Axis::Position => Vec::new(),
+        }
+    }
+
+    /// Distance from `reference` over those of its stations for which `inside(x)`; a fraction. `None` if the zone
+    /// holds no station, or none with a reference to relate to.
+    pub fn distance(&self, reference: &Curve, norm: Norm, inside: impl Fn(f64) -> bool) -> Option<f64> {
         let largest = reference.y.iter().fold(0.0f64, |m, r| m.max(r.abs()));
         if largest == 0.0 {
             return None;
         }
-        let zone: Vec<(f64, f64)> =
-            (0..self.x.len()).filter(|&i| inside(self.x[i])).map(|i| (self.y[i], reference.y[i])).collect();
+        let beside = self.beside(reference).into_iter();
+        let zone: Vec<(f64, f64)> = beside.filter(|[x, ..]| inside(*x)).map(|[_, s, r]| (s, r)).collect();
         let pointwise = zone.iter().filter(|(_, r)| r.abs() >= SMALL * largest);
         match norm {
             Norm::Pointwise => pointwise.map(|(s, r)| (s - r).abs() / r.abs()).reduce(nan_max),
@@ -50,7 +127,7 @@ mod tests {
     use super::*;
 
     fn curve(y: [f64; 4]) -> Curve {
-        Curve { x: vec![0.0, 1.0, 2.0, 3.0], y: y.to_vec() }
+        Curve { x: vec![0.0, 1.0, 2.0, 3.0], y: y.to_vec(), ..Curve::default() }
     }
 
     #[test]
@@ -67,5 +144,31 @@ mod tests {
         assert_eq!(model.distance(&reference, Norm::Largest, |x| x > 9.0), None);
         assert_eq!(model.distance(&curve([0.0; 4]), Norm::Largest, |_| true), None);
         assert!(curve([f64::NAN; 4]).distance(&reference, Norm::Largest, |_| true).unwrap().is_nan());
+    }
+
+    fn history(x: &[f64], y: &[f64]) -> Curve {
+        Curve { axis: Axis::Time, x: x.to_vec(), y: y.to_vec() }
+    }
+
+    #[test]
+    fn histories_are_compared_at_the_times_of_the_reference_inside_the_overlap() {
+        let reference = history(&[0.0, 1.0, 2.0, 3.0], &[0.0, -1.0, -2.0, -8.0]);
+        // Other steps, and an end before the reference's last station.
+        let model = history(&[0.0, 1.5, 2.5], &[0.0, -1.5, -2.5]);
+        assert_eq!(model.distance(&reference, Norm::Largest, |_| true), Some(0.0));
+        assert_eq!(model.last_shared(&reference), Some(2.0));
+        assert_eq!(model.at(2.6), None);
+        assert_eq!(model.at(-0.1), None);
+        assert_eq!(model.at(2.5 + 1e-12), Some(-2.5));
+    }
+
+    #[test]
+    fn a_history_gives_one_of_its_values() {
+        let swing = history(&[0.0, 1.0, 2.0, 3.0], &[0.0, 2.0, -3.0, 1.0]);
+        let of = |take| swing.take(take).unwrap();
+        assert_eq!([of(Take::End), of(Take::Largest), of(Take::Smallest)], [1.0, 2.0, -3.0]);
+        assert_eq!(of(Take::LargestMagnitude), -3.0);
+        assert!(history(&[0.0, 1.0], &[f64::NAN, 1.0]).take(Take::LargestMagnitude).unwrap().is_nan());
+        assert_eq!(curve([1.0; 4]).take(Take::End), None);
     }
 }

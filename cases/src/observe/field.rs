@@ -1,12 +1,11 @@
-//! The displacement and stress fields of a solved model at any point.
+//! The displacement and stress fields of a model in some state at any point.
 
 use super::moving_least_squares as mls;
 use seam_solver::error::Result;
 use seam_solver::fem::continuum::Continuum;
 use seam_solver::fem::locate::Locator;
 use seam_solver::fem::stress::{Stress, stress_at};
-use seam_solver::model::{Model, Part};
-use seam_solver::solve::statics::Solution;
+use seam_solver::model::{Model, Numbering, Part};
 use seam_solver::space::{Space, Vec3};
 
 /// A point may lie outside a body by this share of its size: rounding of coordinates.
@@ -37,20 +36,25 @@ enum Way<'a> {
 }
 
 impl<'a> Field<'a> {
-    /// Prepares a solution.
-    pub fn new(model: &'a Model, solution: &'a Solution) -> Self {
+    /// Prepares the displacements and rotations `u` of all unknowns, in m and rad.
+    pub fn new(model: &'a Model, u: &'a [f64]) -> Self {
+        let numbering = Numbering::new(model);
+        let dim = model.space.dim();
         let part = |(index, part): (usize, &'a Part)| {
             let positions = part.positions();
             let mut bounds = (Vec3::repeat(f64::INFINITY), Vec3::repeat(f64::NEG_INFINITY));
             for x in positions {
                 bounds = (bounds.0.inf(x), bounds.1.sup(x));
             }
-            let displacement =
-                (0..positions.len()).map(|point| solution.displacement(model, index, point)).collect();
+            let at = |point: usize| {
+                let first = numbering.unknown(index, point, 0);
+                Vec3::from_fn(|c, _| if c < dim { u[first + c] } else { 0.0 })
+            };
+            let displacement = (0..positions.len()).map(at).collect();
             let way = match part {
                 Part::Continuum(body) => {
-                    let first = solution.numbering.offset(index);
-                    let unknowns = &solution.u[first..first + body.dof_count()];
+                    let first = numbering.offset(index);
+                    let unknowns = &u[first..first + body.dof_count()];
                     Way::Elements { body, locator: Box::new(Locator::new(&body.mesh)), unknowns }
                 }
                 Part::Discrete { .. } => {

@@ -1,58 +1,57 @@
-//! The probes of a scene on a solution.
+//! The probes of a scene at one moment: an equilibrium, or an output of a run.
 
 use super::curve::{Curve, nan_max};
 use super::field::Field;
 use super::section;
+use super::supports::Supports;
 use crate::error::{Fault, Result};
 use crate::file::SceneFile;
 use crate::scene::probe::{Line, Probe, Read};
-use seam_solver::model::Model;
-use seam_solver::solve::statics::Solution;
-use seam_solver::space::Vec3;
-use std::collections::BTreeMap;
+use seam_solver::space::{Space, Vec3};
 
 /// What a probe gives.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Reading {
     /// One number.
     Scalar(f64),
-    /// A value along a line.
+    /// A value along a line or over time.
     Curve(Curve),
 }
 
-/// Reads every probe of the scene.
-///
-/// # Errors
-/// A probe outside of all bodies, or an expression that cannot be evaluated.
-pub fn read(file: &SceneFile, model: &Model, solution: &Solution) -> Result<BTreeMap<String, Reading>> {
-    let field = Field::new(model, solution);
-    let mut readings = BTreeMap::new();
-    for (name, probe) in &file.scene.probes {
-        let observer = Observer { file, field: &field, solution, name, probe };
-        readings.insert(name.clone(), observer.read()?);
-    }
-    Ok(readings)
+/// A model in some state.
+pub struct Moment<'a> {
+    /// Its fields; `None` where no probe asks for them.
+    pub field: Option<&'a Field<'a>>,
+    /// Strain energy, in J.
+    pub strain: f64,
+    /// Forces of supports and ties on each unknown, in N and N m.
+    pub reactions: &'a [f64],
+    /// The supports, as they are in this model.
+    pub supports: &'a Supports,
 }
 
-struct Observer<'a> {
-    file: &'a SceneFile,
-    field: &'a Field<'a>,
-    solution: &'a Solution,
-    name: &'a str,
-    probe: &'a Probe,
+/// One probe at one moment.
+pub struct Observer<'a> {
+    /// The scene.
+    pub file: &'a SceneFile,
+    /// The moment.
+    pub moment: &'a Moment<'a>,
+    /// Name of the probe.
+    pub name: &'a str,
+    /// The probe.
+    pub probe: &'a Probe,
 }
 
 impl Observer<'_> {
-    fn read(&self) -> Result<Reading> {
-        match (self.probe.read, &self.probe.point, &self.probe.line) {
-            (Read::StrainEnergy, ..) => Ok(Reading::Scalar(self.solution.energy)),
-            (read, ..) if read.is_error() => self.displacement_error().map(Reading::Scalar),
-            (_, Some(point), _) => {
-                let x = self.point(point, "point")?;
-                self.value(x).map(Reading::Scalar)
-            }
-            (Read::SecantRotation, _, Some(line)) => self.secant(line).map(Reading::Curve),
-            (_, _, Some(line)) => {
+    /// Reads the probe.
+    ///
+    /// # Errors
+    /// A place outside of all bodies, or an expression that cannot be evaluated.
+    pub fn read(&self) -> Result<Reading> {
+        match (self.probe.read, &self.probe.line) {
+            (read, _) if read.is_error() => self.displacement_error().map(Reading::Scalar),
+            (Read::SecantRotation, Some(line)) => self.secant(line).map(Reading::Curve),
+            (_, Some(line)) => {
                 let mut curve = Curve::default();
                 for x in self.stations(line)? {
                     curve.x.push(x.x);
@@ -60,8 +59,38 @@ impl Observer<'_> {
                 }
                 Ok(Reading::Curve(curve))
             }
-            (_, None, None) => Err(self.error("the probe does not say where", "give `point` or `line`")),
+            (_, None) => self.now().map(Reading::Scalar),
         }
+    }
+
+    /// The one number of a probe that is not read along a line.
+    ///
+    /// # Errors
+    /// As [`Observer::read`].
+    pub fn now(&self) -> Result<f64> {
+        let reaction = |axis: usize| {
+            let support = self.probe.support.as_deref().unwrap_or_default();
+            self.moment.supports.reaction(support, axis, self.moment.reactions)
+        };
+        match (self.probe.read, &self.probe.point) {
+            (Read::StrainEnergy, _) => Ok(self.moment.strain),
+            (Read::ReactionX, _) => Ok(reaction(0)),
+            (Read::ReactionY, _) => Ok(reaction(1)),
+            (Read::ReactionZ, _) => Ok(reaction(2)),
+            (_, Some(point)) => {
+                let x = self.point(point, "point")?;
+                self.value(x)
+            }
+            (_, None) => Err(self.error("the probe does not say where", "give `point` or `line`")),
+        }
+    }
+
+    fn field(&self) -> Result<&Field<'_>> {
+        self.moment.field.ok_or_else(|| self.error("there is no field to read", "give a `point` or `line`"))
+    }
+
+    fn space(&self) -> Space {
+        self.file.scene.hypothesis.space()
     }
 
     fn error(&self, message: impl Into<String>, mend: &str) -> crate::error::Error {
@@ -70,7 +99,7 @@ impl Observer<'_> {
 
     fn point(&self, numbers: &[crate::scene::number::Number], part: &str) -> Result<Vec3> {
         let mut x = Vec3::zeros();
-        for i in 0..self.field.space.dim().min(numbers.len()) {
+        for i in 0..self.space().dim().min(numbers.len()) {
             let key = format!("probes.{}.{part}[{i}]", self.name);
             x[i] = numbers[i].value(&self.file.values, &key).map_err(|fault| self.file.error(fault))?;
         }
@@ -84,7 +113,7 @@ impl Observer<'_> {
     }
 
     fn displacement(&self, x: Vec3) -> Result<Vec3> {
-        self.field.displacement(x).ok_or_else(|| {
+        self.field()?.displacement(x).ok_or_else(|| {
             let [x, y, z] = [x.x, x.y, x.z];
             self.error(format!("({x}, {y}, {z}) lies in no body"), "move the probe into a body")
         })
@@ -92,7 +121,7 @@ impl Observer<'_> {
 
     fn value(&self, x: Vec3) -> Result<f64> {
         let stress = |component: usize| {
-            let found = self.field.stress(x).map_err(|e| self.file.solver(e))?;
+            let found = self.field()?.stress(x).map_err(|e| self.file.solver(e))?;
             found.map(|stress| stress.voigt[component]).ok_or_else(|| {
                 self.error("the point lies in no finite element", "read stress inside finite elements")
             })
@@ -104,13 +133,10 @@ impl Observer<'_> {
             Read::Sxx => stress(0),
             Read::Syy => stress(1),
             Read::Sxy => stress(3),
-            Read::SectionRotation => section::rotation(self.field, x.x).ok_or_else(|| {
+            Read::SectionRotation => section::rotation(self.field()?, x.x).ok_or_else(|| {
                 self.error(format!("no section at x = {}", x.x), "move the line into the bodies")
             }),
-            Read::SecantRotation
-            | Read::DisplacementError
-            | Read::DisplacementErrorRms
-            | Read::StrainEnergy => Err(self.error("it is not read at a point", "give `line`, or neither")),
+            _ => Err(self.error("it is not read at a point", "give `line`, or neither")),
         }
     }
 
@@ -135,11 +161,11 @@ impl Observer<'_> {
     /// Distance from the exact displacement over all nodes and particles, as a share of it: in the largest value or
     /// in the root of the sum of squares.
     fn displacement_error(&self) -> Result<f64> {
-        let dim = self.field.space.dim();
+        let dim = self.space().dim();
         let (mut miss, mut size) = (0.0, 0.0);
         let rms = self.probe.read == Read::DisplacementErrorRms;
         let grow = |sum: f64, d: f64| if rms { sum.hypot(d) } else { nan_max(sum, d) };
-        for part in &self.field.parts {
+        for part in &self.field()?.parts {
             for (&x, u) in part.part.positions().iter().zip(&part.displacement) {
                 let mut exact = Vec3::zeros();
                 for c in 0..dim {

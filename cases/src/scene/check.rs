@@ -3,7 +3,7 @@
 use super::body::{Body, Method};
 use super::de::{Arrangement, Calibrate, De};
 use super::number::Number;
-use super::{Scene, check_connection, check_study};
+use super::{Scene, check_connection, check_dynamics, check_probe, check_study, check_switch};
 use crate::error::Fault;
 use crate::expression::{RESERVED, Values};
 use crate::names::hint;
@@ -26,8 +26,12 @@ pub fn check(scene: &Scene, values: &Values) -> Checked {
         check_body(scene, name, body, values)?;
     }
     check_connection::check(scene, values)?;
+    if let Some(dynamics) = &scene.dynamics {
+        check_dynamics::check(scene, dynamics, values)?;
+    }
+    check_switch::check(scene, values)?;
     for (name, probe) in &scene.probes {
-        check_study::probe(scene, name, probe, values)?;
+        check_probe::check(scene, name, probe, values)?;
     }
     check_study::check(scene, values)
 }
@@ -141,7 +145,8 @@ fn check_body(scene: &Scene, name: &str, body: &Body, values: &Values) -> Checke
     }
 }
 
-fn check_box(cuboid: &super::body::Cuboid, space: Space, values: &Values, key: &str) -> Checked {
+/// A box with sides of positive length.
+pub fn check_box(cuboid: &super::body::Cuboid, space: Space, values: &Values, key: &str) -> Checked {
     vector(&cuboid.min, space, &format!("{key}.min"))?;
     vector(&cuboid.max, space, &format!("{key}.max"))?;
     for i in 0..space.dim() {
@@ -193,6 +198,11 @@ fn check_de(body: &Body, shape: &str, space: Space, values: &Values, key: &str) 
         let message = "particles fill boxes only";
         return Err(Fault::new(format!("{key}.{shape}"), message, "use a box, or bring a network"));
     }
+    check_filling(de, space, values, key)
+}
+
+/// The particles of a body or of a switch, whose table is at `key`.
+pub fn check_filling(de: &De, space: Space, values: &Values, key: &str) -> Checked {
     let plane = matches!(de.arrangement, Arrangement::Triangular | Arrangement::Square);
     let solid = matches!(de.arrangement, Arrangement::Sc | Arrangement::Bcc | Arrangement::Fcc);
     if (plane && space == Space::Solid) || (solid && space == Space::Plane) {

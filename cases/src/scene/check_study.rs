@@ -1,14 +1,14 @@
-//! Checks of probes, quantities and studies: names that lead nowhere, studies that compare nothing.
+//! Checks of quantities and studies: names that lead nowhere, studies that compare nothing.
 
 use super::Scene;
-use super::check::{Checked, known, vector};
-use super::probe::Probe;
+use super::check::{Checked, known};
+use super::check_probe::{is_history, zone};
 use super::quantity::{Accept, Quantity};
 use super::study::{Claim, FamilyDeclaration, Levels, Seeds};
 use crate::error::Fault;
 use crate::expression::Values;
 use crate::overrides::label;
-use seam_solver::space::Space;
+use crate::result::ReferenceKind;
 use serde_json::Value;
 
 /// Checks quantities and studies.
@@ -70,48 +70,23 @@ fn levels(levels: &Levels, least: usize, key: &str) -> Checked {
     Ok(())
 }
 
-/// Checks one probe.
-pub fn probe(scene: &Scene, name: &str, probe: &Probe, values: &Values) -> Checked {
-    let key = format!("probes.{name}");
-    let space = scene.hypothesis.space();
-    let places = usize::from(probe.point.is_some()) + usize::from(probe.line.is_some());
-    if probe.read.is_global() != (places == 0) || places > 1 {
-        let mend = if probe.read.is_global() {
-            "remove `point` and `line`"
-        } else {
-            "give either `point` or `line`"
-        };
-        return Err(Fault::new(key, "the probe does not say where, or says it twice", mend));
+/// A norm fits what it measures, a zone fits its norm.
+fn check_norm(scene: &Scene, quantity: &Quantity, key: &str) -> Checked {
+    let probe = &scene.probes[&quantity.probe];
+    let history = is_history(scene, probe);
+    let good = match quantity.norm {
+        Some(_) => probe.line.is_some() || history,
+        None => probe.line.is_none(),
+    };
+    if !good {
+        let mend = "a curve needs `norm` to become a number, a scalar has none";
+        return Err(Fault::new(format!("{key}.norm"), "the norm does not fit the probe", mend));
     }
-    if probe.read.is_rotation() && probe.line.is_none() {
-        return Err(Fault::new(key, "a rotation is read along a line", "give `line` instead of `point`"));
+    if quantity.take.is_some() && (!history || quantity.norm.is_some()) {
+        let mend = "remove it: only a history without `norm` has values to choose from";
+        return Err(Fault::new(format!("{key}.take"), "there is one value only", mend));
     }
-    let points = probe.point.iter().map(|p| (p, "point"));
-    let ends = probe.line.iter().flat_map(|l| [(&l.from, "line.from"), (&l.to, "line.to")]);
-    for (point, part) in points.chain(ends) {
-        vector(point, space, &format!("{key}.{part}"))?;
-        for (i, number) in point.iter().enumerate() {
-            number.value(values, &format!("{key}.{part}[{i}]"))?;
-        }
-    }
-    if probe.line.as_ref().is_some_and(|line| line.intervals == 0) {
-        return Err(Fault::new(
-            format!("{key}.line.intervals"),
-            "a line without stations",
-            "give at least 1",
-        ));
-    }
-    check_exact(probe, space, &key)
-}
-
-fn check_exact(probe: &Probe, space: Space, key: &str) -> Checked {
-    let expected = if probe.read.is_error() { space.dim() } else { 1 };
-    let missing = probe.read.is_error() && probe.exact.is_empty();
-    if missing || (!probe.exact.is_empty() && probe.exact.len() < expected) {
-        let message = format!("expected {expected} exact components, found {}", probe.exact.len());
-        return Err(Fault::new(format!("{key}.exact"), message, "give one expression per component"));
-    }
-    Ok(())
+    zone(scene, probe, quantity.zone, &format!("{key}.zone"))
 }
 
 fn check_quantity(scene: &Scene, name: &str, quantity: &Quantity, values: &Values) -> Checked {
@@ -121,13 +96,11 @@ fn check_quantity(scene: &Scene, name: &str, quantity: &Quantity, values: &Value
     }
     known(&quantity.probe, "probe", scene.probes.keys(), &format!("{key}.probe"))?;
     variants(scene, &quantity.variants, &format!("{key}.variants"))?;
-    let curve = scene.probes[&quantity.probe].line.is_some();
-    if curve != quantity.norm.is_some() {
-        let mend = "a curve needs `norm` to become a number, a scalar has none";
-        return Err(Fault::new(format!("{key}.norm"), "the norm does not fit the probe", mend));
-    }
-    let given = quantity.reference.as_ref().is_some_and(|r| r.value.is_some());
-    if scene.reference.is_none() && (curve || (quantity.reference.is_some() && !given)) {
+    check_norm(scene, quantity, &key)?;
+    let curve = quantity.norm.is_some();
+    let given = quantity.reference.as_ref().is_some_and(|r| r.value.is_some() || r.variants.is_some());
+    check_own_run(scene, quantity, &format!("{key}.reference"))?;
+    if scene.reference.is_none() && !given && (curve || quantity.reference.is_some()) {
         let mend = "add a [reference] model, or give reference.value";
         return Err(Fault::new(key, "there is nothing to compare it with", mend));
     }
@@ -140,6 +113,19 @@ fn check_quantity(scene: &Scene, name: &str, quantity: &Quantity, values: &Value
         return Err(Fault::new(format!("{key}.extrapolated"), "no convergence study refines it", mend));
     }
     quantity.accept.as_ref().map_or(Ok(()), |accept| check_accept(accept, quantity, values, &key))
+}
+
+/// A value that Seam computed is called so, and given once.
+fn check_own_run(scene: &Scene, quantity: &Quantity, key: &str) -> Checked {
+    let Some(reference) = &quantity.reference else { return Ok(()) };
+    if reference.variants.is_some() != (reference.kind == ReferenceKind::OwnRun) {
+        let mend = "give `variants` with the kind own-run, and only with it";
+        return Err(Fault::new(format!("{key}.kind"), "the kind does not fit where the value is from", mend));
+    }
+    if reference.variants.is_some() && reference.value.is_some() {
+        return Err(Fault::new(format!("{key}.value"), "there are two references", "keep one of them"));
+    }
+    reference.variants.as_ref().map_or(Ok(()), |names| variants(scene, names, &format!("{key}.variants")))
 }
 
 fn check_accept(accept: &Accept, quantity: &Quantity, values: &Values, key: &str) -> Checked {
@@ -208,7 +194,8 @@ fn on_axis(family: &FamilyDeclaration, axis: &str, value: &Value, key: &str) -> 
 }
 
 fn check_seeds(scene: &Scene, seeds: &Seeds, key: &str) -> Checked {
-    known(&seeds.body, "body", scene.bodies.keys(), &format!("{key}.body"))?;
+    let packings = scene.bodies.keys().chain(scene.switches.keys()).chain(&scene.switches_off);
+    known(&seeds.body, "body or switch", packings, &format!("{key}.body"))?;
     for (list, tier) in [(&seeds.full, "full"), (&seeds.quick, "quick")] {
         if list.is_empty() {
             return Err(Fault::new(format!("{key}.{tier}"), "no seeds", "give at least one"));
@@ -225,11 +212,18 @@ fn check_claim(scene: &Scene, name: &str, claim: &Claim) -> Checked {
         known(other, "claim", scene.claims.keys(), &format!("{key}.no_more_particles_than"))?;
     }
     for (reading_name, reading) in &claim.readings {
-        let key = format!("{key}.readings.{reading_name}.probe");
+        let reading_key = format!("{key}.readings.{reading_name}");
+        let key = format!("{reading_key}.probe");
         known(&reading.probe, "probe", scene.probes.keys(), &key)?;
-        if scene.probes[&reading.probe].line.is_none() {
-            return Err(Fault::new(key, "a reading compares curves", "name a probe along a line"));
+        let probe = &scene.probes[&reading.probe];
+        if probe.line.is_none() && !is_history(scene, probe) {
+            return Err(Fault::new(
+                key,
+                "a reading compares curves",
+                "name a probe along a line or over time",
+            ));
         }
+        zone(scene, probe, reading.zone, &format!("{reading_key}.zone"))?;
     }
     if scene.reference.is_none() {
         return Err(Fault::new(key, "there is nothing to compare with", "add a [reference] model"));

@@ -6,23 +6,29 @@
 pub mod body;
 pub mod check;
 mod check_connection;
+mod check_dynamics;
+mod check_probe;
 mod check_study;
+mod check_switch;
 pub mod connection;
 pub mod de;
+pub mod dynamics;
 pub mod fe;
 pub mod material;
+mod none;
 pub mod number;
 pub mod parameter;
 pub mod probe;
 pub mod quantity;
 pub mod study;
+pub mod switch;
 
 use crate::error::Fault;
 use crate::expression::Values;
 use schemars::JsonSchema;
 use seam_solver::space::Space;
 use serde::{Deserialize, Serialize};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// A scene.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -44,7 +50,7 @@ pub struct Scene {
     /// When it runs.
     #[serde(default = "both_tiers")]
     pub tiers: Vec<Tier>,
-    /// What computes it: `statics`, or a verification that needs no bodies.
+    /// What computes it: `statics` for the scene itself (in time if it has `[dynamics]`), or a verification that needs no bodies.
     #[serde(default = "statics")]
     pub procedure: String,
     /// What a run takes.
@@ -83,6 +89,15 @@ pub struct Scene {
     /// Forces.
     #[serde(default)]
     pub loads: BTreeMap<String, connection::Load>,
+    /// How it moves; without it one equilibrium is computed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub dynamics: Option<dynamics::Dynamics>,
+    /// Elements that become particles on the way.
+    #[serde(default)]
+    pub switches: BTreeMap<String, switch::Switch>,
+    /// Switches that are not enabled: probes may name them and read nothing.
+    #[serde(skip)]
+    pub switches_off: BTreeSet<String>,
     /// What is read off.
     #[serde(default)]
     pub probes: BTreeMap<String, probe::Probe>,
@@ -219,6 +234,9 @@ impl Scene {
         self.ties.retain(|_, tie| tie.enabled);
         self.supports.retain(|_, support| support.enabled);
         self.loads.retain(|_, load| load.enabled);
+        let off = self.switches.iter().filter(|(_, switch)| !switch.enabled);
+        self.switches_off = off.map(|(name, _)| name.clone()).collect();
+        self.switches.retain(|_, switch| switch.enabled);
     }
 
     /// Values of all parameters.

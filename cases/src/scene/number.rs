@@ -73,6 +73,18 @@ impl Number {
     }
 }
 
+impl Number {
+    /// The value at the time `t` (s).
+    ///
+    /// # Errors
+    /// As [`Number::value`].
+    pub fn at_time(&self, t: f64, values: &Values, key: &str) -> Result<f64, Fault> {
+        let mut now = values.clone();
+        now.insert("t".to_owned(), t);
+        self.value(&now, key)
+    }
+}
+
 fn mend(message: &str) -> &'static str {
     if message.starts_with("unknown name") {
         "declare it under [parameters], or correct its spelling"

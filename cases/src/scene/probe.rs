@@ -4,7 +4,10 @@ use super::number::Number;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// One probe: a value at a `point`, along a `line`, or of the whole model.
+/// One probe: a value at a `point`, along a `line`, at a `support`, of a `switch` or of the whole model.
+///
+/// In a scene with `[dynamics]`, what is not read along a line gives a history: its value over time. Lines are
+/// read at the end.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Probe {
@@ -16,8 +19,14 @@ pub struct Probe {
     /// At stations of a line.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub line: Option<Line>,
-    /// The exact answer as a field of x, y, z: one number, or the displacement vector for
-    /// `displacement-error`.
+    /// Reactions only: name of the support.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub support: Option<String>,
+    /// Switches only: name of the switch; all of them if not given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub switch: Option<String>,
+    /// The exact answer as a field of x, y, z, and of the time t (s) in a history: one number, or the displacement
+    /// vector for `displacement-error`.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub exact: Vec<Number>,
     /// Caption of the curve.
@@ -54,33 +63,122 @@ pub enum Read {
     DisplacementErrorRms,
     /// Elastic energy, in J.
     StrainEnergy,
+    /// Force of a support along x, in N.
+    ReactionX,
+    /// Force of a support along y, in N.
+    ReactionY,
+    /// Force of a support along z, in N.
+    ReactionZ,
+    /// Run in time: kinetic energy, in J.
+    KineticEnergy,
+    /// Run in time: work of loads and moving supports, in J.
+    ExternalWork,
+    /// Run in time: energy that no entry of the balance accounts for, over the largest entry.
+    EnergyClosure,
+    /// Run in time: gap of the ties, in m.
+    Gap,
+    /// Run in time: factor on the loads.
+    LoadFactor,
+    /// Run in time: largest tension at the rim of a bond, `F_n/A + |M| r/I` (Potyondy and Cundall 2004, eq. 14), in Pa.
+    LargestBondStress,
+    /// Run in time: number of particles.
+    Particles,
+    /// Jump of the strain energy over the energy before.
+    SwitchEnergyJump,
+    /// Jump of the momentum over `Σ m|v|`.
+    SwitchMomentumJump,
+    /// Jump of the angular momentum over `Σ m|v|` times the largest extent of the bodies.
+    SwitchAngularMomentumJump,
+    /// Largest jump of the force through a face of the region over the largest such force before.
+    SwitchReactionJump,
+    /// Unbalanced over internal forces, before the switch.
+    SwitchUnbalancedBefore,
+    /// Unbalanced over internal forces, as the run goes on.
+    SwitchUnbalancedAfter,
+    /// Time of the (last) switch, in s.
+    SwitchTime,
+    /// Share of all switches together in the wall time. Not deterministic.
+    SwitchShareOfTime,
+    /// Smallest x of all particles at the end, in m.
+    RegionMinX,
+    /// Largest x of all particles at the end, in m.
+    RegionMaxX,
+}
+
+/// Where something is read.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Where {
+    /// At a point or along a line.
+    Place,
+    /// Along a line only.
+    Line,
+    /// At a support.
+    Support,
+    /// Of the switches of a run.
+    Switch,
+    /// Of the whole model, in statics too.
+    Model,
+    /// Of the whole model, in a run only.
+    Run,
+    /// Of the whole model at the end of a run.
+    End,
 }
 
 impl Read {
     /// SI unit.
     pub fn unit(self) -> &'static str {
         match self {
-            Self::Ux | Self::Uy | Self::Uz => "m",
-            Self::Sxx | Self::Syy | Self::Sxy => "Pa",
+            Self::Ux | Self::Uy | Self::Uz | Self::Gap | Self::RegionMinX | Self::RegionMaxX => "m",
+            Self::Sxx | Self::Syy | Self::Sxy | Self::LargestBondStress => "Pa",
             Self::SecantRotation | Self::SectionRotation => "rad",
+            Self::StrainEnergy | Self::KineticEnergy | Self::ExternalWork => "J",
+            Self::ReactionX | Self::ReactionY | Self::ReactionZ => "N",
+            Self::SwitchTime => "s",
             Self::DisplacementError | Self::DisplacementErrorRms => "1",
-            Self::StrainEnergy => "J",
+            Self::EnergyClosure | Self::LoadFactor | Self::Particles => "1",
+            Self::SwitchEnergyJump | Self::SwitchMomentumJump | Self::SwitchAngularMomentumJump => "1",
+            Self::SwitchReactionJump | Self::SwitchShareOfTime => "1",
+            Self::SwitchUnbalancedBefore | Self::SwitchUnbalancedAfter => "1",
         }
     }
 
-    /// Whether it needs neither point nor line.
-    pub fn is_global(self) -> bool {
-        self.is_error() || self == Self::StrainEnergy
+    /// Where it is read.
+    pub fn place(self) -> Where {
+        match self {
+            Self::Ux | Self::Uy | Self::Uz | Self::Sxx | Self::Syy | Self::Sxy => Where::Place,
+            Self::SecantRotation | Self::SectionRotation => Where::Line,
+            Self::ReactionX | Self::ReactionY | Self::ReactionZ => Where::Support,
+            Self::DisplacementError | Self::DisplacementErrorRms | Self::StrainEnergy => Where::Model,
+            Self::KineticEnergy | Self::ExternalWork | Self::EnergyClosure | Self::Gap => Where::Run,
+            Self::LoadFactor | Self::LargestBondStress | Self::Particles => Where::Run,
+            Self::SwitchEnergyJump | Self::SwitchMomentumJump | Self::SwitchAngularMomentumJump => {
+                Where::Switch
+            }
+            Self::SwitchReactionJump | Self::SwitchTime | Self::SwitchShareOfTime => Where::Switch,
+            Self::SwitchUnbalancedBefore | Self::SwitchUnbalancedAfter => Where::Switch,
+            Self::RegionMinX | Self::RegionMaxX => Where::End,
+        }
+    }
+
+    /// Whether the same thing can be read off a reference model without switches: not what tells of particles and ties.
+    pub fn has_counterpart(self) -> bool {
+        !matches!(
+            self,
+            Self::EnergyClosure | Self::Gap | Self::LoadFactor | Self::LargestBondStress | Self::Particles
+        )
     }
 
     /// Whether it is the distance from an exact displacement.
     pub fn is_error(self) -> bool {
         matches!(self, Self::DisplacementError | Self::DisplacementErrorRms)
     }
+}
 
-    /// Whether it is defined along a line only.
-    pub fn is_rotation(self) -> bool {
-        matches!(self, Self::SecantRotation | Self::SectionRotation)
+impl Probe {
+    /// Whether it gives a history in a run: a value over time.
+    pub fn is_history(&self) -> bool {
+        let once = [Where::Switch, Where::End].contains(&self.read.place());
+        self.line.is_none() && !once && !self.read.is_error()
     }
 }
 

@@ -19,10 +19,13 @@ pub struct Quantity {
     /// Variants of the scene it is read off; the scene itself if there are none.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub variants: Vec<String>,
-    /// Curves only: how its distance from the reference model is measured.
+    /// Histories only: which of its values; the one at the end if neither this nor `norm` is given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub take: Option<Take>,
+    /// Curves and histories only: how its distance from the reference model is measured.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub norm: Option<Norm>,
-    /// Curves only: where.
+    /// With `norm` only: where, or when.
     #[serde(default)]
     pub zone: Zone,
     /// Take the value extrapolated from the levels of a convergence study of this quantity.
@@ -36,7 +39,7 @@ pub struct Quantity {
     pub accept: Option<Accept>,
 }
 
-/// Distance between a curve s and its reference r, as a fraction.
+/// Distance between a curve s and its reference r, as a fraction. Histories are compared at the reference's times.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Norm {
@@ -48,15 +51,41 @@ pub enum Norm {
     Mean,
 }
 
+/// One value of a history.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Take {
+    /// The last one.
+    #[default]
+    End,
+    /// The largest.
+    Largest,
+    /// The smallest.
+    Smallest,
+    /// The one farthest from zero, with its sign.
+    LargestMagnitude,
+}
+
 /// Part of a curve.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
+#[serde(rename_all = "kebab-case")]
 pub enum Zone {
     /// All stations.
     #[default]
     Whole,
-    /// Stations inside bodies that have a `de` section.
+    /// Lines: stations inside bodies that have a `de` section and boxes of switches.
     De,
+    /// Histories: times after the first switch.
+    AfterSwitch,
+    /// Histories: the last time.
+    End,
+}
+
+impl Zone {
+    /// Whether it is a part of time rather than of space.
+    pub fn is_time(self) -> bool {
+        matches!(self, Self::AfterSwitch | Self::End)
+    }
 }
 
 /// A reference value.
@@ -65,9 +94,12 @@ pub enum Zone {
 pub struct Reference {
     /// Where it comes from.
     pub kind: ReferenceKind,
-    /// The value; computed by the scene's `[reference]` model if not given.
+    /// The value; computed by the scene's `[reference]` model if neither this nor `variants` is given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub value: Option<Number>,
+    /// Read it off the scene itself with these variants: with kind `own-run`, a difference and not an accuracy.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub variants: Option<Vec<String>>,
     /// Author, year, equation.
     pub source: String,
     /// Standard uncertainty, in the unit of the quantity.

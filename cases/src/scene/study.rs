@@ -3,6 +3,8 @@
 //! All of them run the scene again with some keys set to other values, exactly as
 //! `--set key.path=value` does.
 
+use super::Scene;
+use super::de::De;
 use super::number::Number;
 use super::quantity::{Norm, Zone};
 use schemars::JsonSchema;
@@ -95,12 +97,28 @@ pub struct Axis {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Seeds {
-    /// The body that may be packed at random.
+    /// The body, or the switch, whose particles may be packed at random.
     pub body: String,
     /// Seeds of the full tier, at least ten for a verdict.
     pub full: Vec<u64>,
     /// Seeds of the quick tier.
     pub quick: Vec<u64>,
+}
+
+impl Seeds {
+    /// The key that is set to a seed.
+    pub fn key(&self, scene: &Scene) -> String {
+        let table = if scene.bodies.contains_key(&self.body) { "bodies" } else { "switches" };
+        format!("{table}.{}.de.packing.seed", self.body)
+    }
+
+    /// The particles that may be packed at random; `None` where none are.
+    pub fn particles<'a>(&self, scene: &'a Scene) -> Option<&'a De> {
+        match scene.bodies.get(&self.body) {
+            Some(body) => body.de.as_ref(),
+            None => scene.switches.get(&self.body).map(|switch| &switch.de),
+        }
+    }
 }
 
 /// `[claims.NAME]`: a sentence with a bound.
@@ -134,7 +152,7 @@ pub struct Claim {
 pub struct Reading {
     /// What it means, in words.
     pub about: String,
-    /// Name of a line probe.
+    /// Name of a probe along a line or over time.
     pub probe: String,
     /// Where.
     pub zone: Zone,

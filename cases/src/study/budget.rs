@@ -1,7 +1,7 @@
 //! Error budgets: the signed error of a quantity as a sum of differences between runs.
 
 use super::Study;
-use super::evaluate::{self, inside};
+use super::evaluate::{self, distance};
 use crate::error::Result;
 use crate::file::SceneFile;
 use crate::overrides::Override;
@@ -54,7 +54,7 @@ fn one_part(study: &Study, quantity: &Quantity, part: &Part) -> Result<BudgetPar
         Some(seeds) => of_tier(study, seeds)
             .iter()
             .map(|&seed| {
-                let key = format!("bodies.{}.de.packing.seed", seeds.body);
+                let key = seeds.key(&study.file.scene);
                 difference(Some(Override { key, value: seed.into() }))
             })
             .collect::<Result<Vec<f64>>>()?,
@@ -80,12 +80,11 @@ fn error(study: &Study, quantity: &Quantity, file: &SceneFile) -> Result<f64> {
     let readings = evaluate::solve(file, study.tally)?.readings;
     let found = match quantity.norm {
         None => {
-            let exact = reference.scalars.get(&quantity.probe).map(|estimate| estimate.value);
-            readings.scalar(&quantity.probe).zip(exact).map(|(value, exact)| (value - exact) / exact)
+            let exact = reference.estimate(quantity).map(|estimate| estimate.value);
+            readings.value(quantity).zip(exact).map(|(value, exact)| (value - exact) / exact)
         }
         Some(_) => {
-            let curve = readings.curve(&quantity.probe).zip(reference.curves.get(&quantity.probe));
-            curve.and_then(|(own, (exact, _))| own.distance(exact, Norm::Mean, inside(file, quantity.zone)))
+            distance(file, &readings, &reference, (quantity.probe.as_str(), Norm::Mean, quantity.zone))
         }
     };
     found

@@ -33,7 +33,7 @@ fn one(study: &Study, name: &str, declared: &Convergence) -> Result<Refined> {
         let key = format!("convergence.{name}.cell_m");
         h.push(declared.cell_m.value(&file.values, &key).map_err(|fault| file.error(fault))?);
         let solved = evaluate::solve(&file, study.tally)?;
-        let found = solved.readings.scalar(&quantity.probe);
+        let found = solved.readings.value(quantity);
         values.push(found.ok_or_else(|| study.error(format!("convergence '{name}' needs a scalar probe")))?);
     }
     let n = values.len();

@@ -1,6 +1,6 @@
 //! Work–precision: error against counted work and seconds for several settings.
 
-use super::evaluate::{self, Solved, Tally, inside};
+use super::evaluate::{self, Solved, Tally, distance};
 use super::{Study, at_level, level_name};
 use crate::error::Result;
 use crate::file::SceneFile;
@@ -48,18 +48,13 @@ fn measure(study: &Study, quantity: &Quantity, file: &SceneFile, level: String) 
     let solved = timed(file, study.tally)?;
     let error = match quantity.norm {
         None => {
-            let exact = reference.scalars.get(&quantity.probe).map(|estimate| estimate.value);
-            solved
-                .readings
-                .scalar(&quantity.probe)
-                .zip(exact)
-                .map(|(value, exact)| ((value - exact) / exact).abs())
+            let exact = reference.estimate(quantity).map(|estimate| estimate.value);
+            let value = solved.readings.value(quantity);
+            value.zip(exact).map(|(value, exact)| ((value - exact) / exact).abs())
         }
         Some(norm) => {
-            let curve = solved.readings.curve(&quantity.probe).zip(reference.curves.get(&quantity.probe));
-            curve
-                .and_then(|(own, (exact, _))| own.distance(exact, norm, inside(file, quantity.zone)))
-                .map(f64::abs)
+            let what = (quantity.probe.as_str(), norm, quantity.zone);
+            distance(file, &solved.readings, &reference, what).map(f64::abs)
         }
     };
     let mut seconds = vec![solved.seconds];

@@ -18,6 +18,7 @@ pub fn digest(file: &SceneFile) -> String {
     let parts = (
         (&scene.hypothesis, &scene.thickness_m, &scene.materials, &scene.bodies, &scene.sets),
         (&scene.ties, &scene.supports, &scene.loads, &scene.probes, &scene.reference),
+        (&scene.dynamics, &scene.switches),
     );
     let mut value = serde_json::to_value(parts).unwrap_or(Value::Null);
     evaluate(&mut value, file);

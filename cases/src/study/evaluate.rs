@@ -1,11 +1,20 @@
-//! One run of one scene.
+//! One run of one scene: an equilibrium, or a run in time.
 
+use super::reference::Reference;
 use crate::error::Result;
 use crate::file::SceneFile;
-use crate::model::{self, Built};
+use crate::model::{self, Built, time};
 use crate::observe::curve::Curve;
-use crate::observe::probes::{self, Reading};
-use crate::scene::quantity::Zone;
+use crate::observe::field::Field;
+use crate::observe::history::Recorder;
+use crate::observe::probes::{Moment, Observer, Reading};
+use crate::observe::supports::Supports;
+use crate::observe::switches::{Switches, extent, region_x};
+use crate::scene::dynamics::Dynamics;
+use crate::scene::probe::{Probe, Read, Where};
+use crate::scene::quantity::{Norm, Quantity, Zone};
+use seam_solver::model::Numbering;
+use seam_solver::simulation::{Energies, Outcome};
 use seam_solver::solve::statics::{self, Solution};
 use seam_solver::work::Work;
 use std::collections::BTreeMap;
@@ -14,23 +23,50 @@ use std::time::Instant;
 
 /// A solved scene.
 pub struct Solved {
-    /// The model.
+    /// The model; after a run, as it is at the end.
     pub built: Built,
-    /// Its equilibrium.
+    /// Its equilibrium, or its state at the end of a run.
     pub solution: Solution,
     /// What the probes read.
     pub readings: Readings,
+    /// How it moved; `None` in statics.
+    pub course: Option<Course>,
     /// Wall time, in s.
     pub seconds: f64,
+}
+
+/// How a scene moved.
+#[derive(Debug, Clone, Default)]
+pub struct Course {
+    /// Time (s) and energies of each output.
+    pub energies: Vec<(f64, Energies)>,
+    /// The switches.
+    pub switches: Switches,
+}
+
+impl Course {
+    /// Time of the first switch, in s.
+    pub fn first_switch(&self) -> Option<f64> {
+        self.switches.reports.first().map(|(_, report)| report.time)
+    }
 }
 
 /// What the probes of a scene read.
 #[derive(Debug, Clone, Default)]
 pub struct Readings {
     by_probe: BTreeMap<String, Reading>,
+    first_switch: Option<f64>,
 }
 
 impl Readings {
+    /// What a quantity takes from its probe: a scalar, or one value of a history.
+    pub fn value(&self, quantity: &Quantity) -> Option<f64> {
+        match self.by_probe.get(&quantity.probe)? {
+            Reading::Scalar(value) => Some(*value),
+            Reading::Curve(curve) => curve.take(quantity.take.unwrap_or_default()),
+        }
+    }
+
     /// Value of a scalar probe.
     pub fn scalar(&self, probe: &str) -> Option<f64> {
         match self.by_probe.get(probe) {
@@ -39,7 +75,7 @@ impl Readings {
         }
     }
 
-    /// Curve of a line probe.
+    /// Curve of a probe along a line or over time.
     pub fn curve(&self, probe: &str) -> Option<&Curve> {
         match self.by_probe.get(probe) {
             Some(Reading::Curve(curve)) => Some(curve),
@@ -79,22 +115,111 @@ impl Tally {
 pub fn solve(file: &SceneFile, tally: &Tally) -> Result<Solved> {
     let start = Instant::now();
     let built = model::build(file)?;
+    let mut solved = match &file.scene.dynamics {
+        None => stand(file, built)?,
+        Some(dynamics) => go(file, dynamics, built, start)?,
+    };
+    tally.add(solved.solution.work);
+    solved.seconds = start.elapsed().as_secs_f64();
+    Ok(solved)
+}
+
+fn stand(file: &SceneFile, built: Built) -> Result<Solved> {
     let solution = statics::solve(&built.model).map_err(|e| file.solver(e))?;
-    tally.add(solution.work);
-    let by_probe = probes::read(file, &built.model, &solution)?;
-    Ok(Solved { built, solution, readings: Readings { by_probe }, seconds: start.elapsed().as_secs_f64() })
+    let mut supports = Supports::new(&built);
+    supports.follow(&built.model, 0);
+    let by_probe = read(file, &built, &solution, &supports, |_| true)?;
+    let readings = Readings { by_probe, first_switch: None };
+    Ok(Solved { built, solution, readings, course: None, seconds: 0.0 })
 }
 
-/// Whether a station belongs to a zone: the boxes of bodies that have a `de` section, or everything.
-pub fn inside(file: &SceneFile, zone: Zone) -> impl Fn(f64) -> bool + use<> {
-    let intervals = de_intervals(file);
-    move |x| zone == Zone::Whole || intervals.iter().any(|[low, high]| *low <= x && x <= *high)
+fn go(file: &SceneFile, dynamics: &Dynamics, mut built: Built, start: Instant) -> Result<Solved> {
+    let mut recorder = Recorder::new(file, Supports::new(&built));
+    let outcome = time::run(file, dynamics, &mut built, &mut |snapshot| recorder.watch(snapshot))?;
+    let Outcome { model, state, energies, switches, notes, work, switch_seconds, .. } = outcome;
+    let share_of_time = switch_seconds / start.elapsed().as_secs_f64();
+    let switches = Switches { reports: switches, extent: extent(&model), share_of_time };
+    built.model = model;
+    let solution = Solution {
+        numbering: Numbering::new(&built.model),
+        u: state.u,
+        reactions: std::mem::take(&mut recorder.reactions),
+        multipliers: Vec::new(),
+        energy: energies.strain,
+        // Each step has its own.
+        residual: f64::NAN,
+        work,
+        notes,
+    };
+    let mut by_probe = read(file, &built, &solution, recorder.supports(), |probe| !probe.is_history())?;
+    for (name, probe) in &file.scene.probes {
+        let value = match probe.read.place() {
+            Where::Switch => switches.read(probe.read, probe.switch.as_deref()),
+            Where::End => region_x(&built.model)
+                .map(|[low, high]| if probe.read == Read::RegionMinX { low } else { high }),
+            _ => None,
+        };
+        by_probe.extend(value.map(|value| (name.clone(), Reading::Scalar(value))));
+    }
+    let curves = recorder.curves.into_iter().map(|(name, curve)| (name, Reading::Curve(curve)));
+    by_probe.extend(curves);
+    let course = Course { energies: recorder.energies, switches };
+    let readings = Readings { by_probe, first_switch: course.first_switch() };
+    Ok(Solved { built, solution, readings, course: Some(course), seconds: 0.0 })
 }
 
-/// Extent along x of the bodies that have a `de` section, whichever method is on, in m.
+/// Reads those probes off a state that a state alone can answer.
+fn read(
+    file: &SceneFile,
+    built: &Built,
+    solution: &Solution,
+    supports: &Supports,
+    wanted: impl Fn(&Probe) -> bool,
+) -> Result<BTreeMap<String, Reading>> {
+    let field = Field::new(&built.model, &solution.u);
+    let moment =
+        Moment { field: Some(&field), strain: solution.energy, reactions: &solution.reactions, supports };
+    let mut readings = BTreeMap::new();
+    for (name, probe) in &file.scene.probes {
+        let of_run = [Where::Run, Where::Switch, Where::End].contains(&probe.read.place());
+        if wanted(probe) && !of_run {
+            let observer = Observer { file, moment: &moment, name, probe };
+            readings.insert(name.clone(), observer.read()?);
+        }
+    }
+    Ok(readings)
+}
+
+/// Distance of a probe's curve from its reference in a zone of space or time; `None` if the zone holds no station.
+pub fn distance(
+    file: &SceneFile,
+    readings: &Readings,
+    reference: &Reference,
+    (probe, norm, zone): (&str, Norm, Zone),
+) -> Option<f64> {
+    let (own, (exact, _)) = (readings.curve(probe)?, reference.curves.get(probe)?);
+    match zone {
+        Zone::Whole => own.distance(exact, norm, |_| true),
+        Zone::De => {
+            let intervals = de_intervals(file);
+            own.distance(exact, norm, |x| intervals.iter().any(|[low, high]| *low <= x && x <= *high))
+        }
+        Zone::AfterSwitch => {
+            let switch = readings.first_switch?;
+            own.distance(exact, norm, |t| t > switch)
+        }
+        Zone::End => {
+            let end = own.last_shared(exact)?;
+            own.distance(exact, norm, |t| t >= end)
+        }
+    }
+}
+
+/// Extent along x of the bodies that have a `de` section, whichever method is on, and of the boxes of switches, in m.
 pub fn de_intervals(file: &SceneFile) -> Vec<[f64; 2]> {
     let bodies = file.scene.bodies.values().filter(|body| body.de.is_some());
     let boxes = bodies.filter_map(|body| body.cuboid.as_ref());
+    let boxes = boxes.chain(file.scene.switches.values().filter_map(|switch| switch.cuboid.as_ref()));
     let ends = |shape: &crate::scene::body::Cuboid| {
         Some([
             shape.min.first()?.value(&file.values, "").ok()?,

@@ -1,6 +1,6 @@
 //! Families: the claims of a scene over many settings.
 
-use super::evaluate::{self, inside};
+use super::evaluate::{self, distance};
 use super::{Study, variants};
 use crate::error::Result;
 use crate::file::SceneFile;
@@ -8,7 +8,7 @@ use crate::overrides::{Override, label};
 use crate::result::{Family, Member};
 use crate::scene::Tier;
 use crate::scene::de::Arrangement;
-use crate::scene::study::{Axis, Claim, FamilyDeclaration, Reading};
+use crate::scene::study::{Axis, Claim, FamilyDeclaration, Reading, Seeds};
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -86,10 +86,9 @@ fn members(
                 continue;
             }
             let file = study.file.with(&overrides(study.file, declared, &settings));
-            let body = &declared.seeds.body;
             match file {
-                Ok(file) if is_random(&file, body) => {
-                    let key = format!("bodies.{body}.de.packing.seed");
+                Ok(file) if is_random(&file, &declared.seeds) => {
+                    let key = declared.seeds.key(&file.scene);
                     for &seed in seeds {
                         let change = Override { key: key.clone(), value: seed.into() };
                         plan.push((settings.clone(), Some(seed), file.with(&[change])));
@@ -105,9 +104,8 @@ fn members(
         .collect())
 }
 
-fn is_random(file: &SceneFile, body: &str) -> bool {
-    let de = file.scene.bodies[body].de.as_ref();
-    de.is_some_and(|de| de.arrangement == Arrangement::Random)
+fn is_random(file: &SceneFile, seeds: &Seeds) -> bool {
+    seeds.particles(&file.scene).is_some_and(|de| de.arrangement == Arrangement::Random)
 }
 
 /// All combinations of the listed values; axes that are not listed keep the paper-like value.
@@ -177,11 +175,8 @@ fn errors(
     let mut errors = BTreeMap::new();
     for (id, claim) in claims {
         for (name, Reading { probe, zone, norm, .. }) in &claim.readings {
-            let (curve, u) = &reference.curves[probe];
-            member.u = member.u.max(*u);
-            let own = solved.readings.curve(probe);
-            let distance = own.and_then(|own| own.distance(curve, *norm, inside(file, *zone)));
-            let distance = distance
+            member.u = member.u.max(reference.curves.get(probe).map_or(0.0, |(_, u)| *u));
+            let distance = distance(file, &solved.readings, &reference, (probe.as_str(), *norm, *zone))
                 .ok_or_else(|| study.error(format!("reading '{name}': its zone holds no station")))?;
             errors.insert(format!("{id}.{name}"), distance.abs());
         }

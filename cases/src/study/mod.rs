@@ -7,6 +7,7 @@ mod digest;
 mod effects;
 mod evaluate;
 mod family;
+mod inertia;
 mod picture;
 mod plots;
 mod quantities;
@@ -57,6 +58,7 @@ pub fn run(file: &SceneFile, tier: Tier) -> Result<Run> {
     result.budgets = budget::all(&study)?;
     result.costs = cost::all(&study)?;
     result.pictures = vec![picture::deformed(file, &solved)];
+    result.switches = solved.course.as_ref().map_or_else(Vec::new, |course| course.switches.records());
     result.work = tally.total();
     result.seconds = start.elapsed().as_secs_f64();
     let Solved { built, solution, .. } = solved;

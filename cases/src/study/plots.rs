@@ -1,30 +1,47 @@
-//! Curves of the line probes, beside their reference and the exact answer.
+//! Curves of the probes along lines and over time, beside their reference and the exact answer, and the energies of a run.
 
 use super::Study;
-use super::evaluate::{Solved, de_intervals};
+use super::evaluate::{Course, Solved, de_intervals};
 use crate::error::Result;
-use crate::observe::curve::Curve;
+use crate::observe::curve::{Axis, Curve};
 use crate::result::{Plot, Role, Series};
 use crate::scene::probe::Probe;
+use seam_solver::simulation::Energies;
 use seam_solver::space::Vec3;
 
-/// One plot per line probe.
+/// One plot per curve, and the energies of a run.
 pub fn all(study: &Study, solved: &Solved) -> Result<Vec<Plot>> {
-    let probes = study.file.scene.probes.iter();
-    probes
-        .filter_map(|(name, probe)| solved.readings.curve(name).map(|curve| plot(study, name, probe, curve)))
-        .collect()
+    let mut plots = Vec::new();
+    for (name, probe) in &study.file.scene.probes {
+        if let Some(curve) = solved.readings.curve(name) {
+            plots.push(plot(study, solved, name, (probe, curve))?);
+        }
+    }
+    plots.extend(solved.course.as_ref().map(energies));
+    Ok(plots)
 }
 
-fn plot(study: &Study, name: &str, probe: &Probe, curve: &Curve) -> Result<Plot> {
+/// What is discrete: a part of the line, or the time from the first switch on.
+fn shaded(study: &Study, solved: &Solved, curve: &Curve) -> Vec<[f64; 2]> {
+    match curve.axis {
+        Axis::Position => de_intervals(study.file),
+        Axis::Time => {
+            let first = solved.course.as_ref().and_then(Course::first_switch);
+            first.zip(curve.x.last()).map(|(first, last)| [first, *last]).into_iter().collect()
+        }
+    }
+}
+
+fn plot(study: &Study, solved: &Solved, name: &str, (probe, curve): (&Probe, &Curve)) -> Result<Plot> {
     let series = |name: &str, role, curve: &Curve| Series {
         name: name.to_owned(),
         role,
         x: curve.x.clone(),
         y: curve.y.clone(),
     };
-    let mut all = vec![series("coupled", Role::Model, curve)];
-    if study.file.scene.reference.is_some() {
+    let own = if study.file.scene.switches.is_empty() { "coupled" } else { "switched" };
+    let mut all = vec![series(own, Role::Model, curve)];
+    if study.file.scene.reference.is_some() && probe.read.has_counterpart() {
         let reference = study.library.of(study.file, study.tally)?;
         if let Some((curve, _)) = reference.curves.get(name) {
             all.push(series("reference", Role::Reference, curve));
@@ -32,9 +49,12 @@ fn plot(study: &Study, name: &str, probe: &Probe, curve: &Curve) -> Result<Plot>
     }
     if let Some(exact) = probe.exact.first() {
         let key = format!("probes.{name}.exact[0]");
-        let mut theory = Curve { x: curve.x.clone(), y: Vec::new() };
+        let mut theory = Curve { axis: curve.axis, x: curve.x.clone(), y: Vec::new() };
         for &x in &curve.x {
-            let y = exact.at(Vec3::new(x, 0.0, 0.0), &study.file.values, &key);
+            let y = match curve.axis {
+                Axis::Position => exact.at(Vec3::new(x, 0.0, 0.0), &study.file.values, &key),
+                Axis::Time => exact.at_time(x, &study.file.values, &key),
+            };
             theory.y.push(y.map_err(|fault| study.file.error(fault))?);
         }
         all.push(series("theory", Role::Reference, &theory));
@@ -43,11 +63,43 @@ fn plot(study: &Study, name: &str, probe: &Probe, curve: &Curve) -> Result<Plot>
     Ok(Plot {
         id: name.to_owned(),
         title: title.to_owned(),
-        x_label: "x (m)".to_owned(),
+        x_label: curve.axis.label().to_owned(),
         y_label: format!("{} ({})", title.to_lowercase(), probe.read.unit()),
         log: [false; 2],
         band: probe.band,
-        shaded: de_intervals(study.file),
+        shaded: shaded(study, solved, curve),
         series: all,
     })
+}
+
+/// Entries of the energy balance: name in the plot, and where it is kept.
+type Entry = (&'static str, fn(&Energies) -> f64);
+const ENTRIES: [Entry; 6] = [
+    ("kinetic", |e| e.kinetic),
+    ("strain", |e| e.strain),
+    ("external work", |e| e.external),
+    ("damping", |e| e.damping),
+    ("interface", |e| e.interface),
+    ("transfer", |e| e.transfer),
+];
+
+/// The entries of the energy balance over time.
+fn energies(course: &Course) -> Plot {
+    let times: Vec<f64> = course.energies.iter().map(|(t, _)| *t).collect();
+    let series = |(name, of): &Entry| Series {
+        name: (*name).to_owned(),
+        role: Role::Model,
+        x: times.clone(),
+        y: course.energies.iter().map(|(_, energies)| of(energies)).collect(),
+    };
+    let end = times.last().copied().unwrap_or_default();
+    Plot {
+        id: "energy-balance".to_owned(),
+        title: "Energies".to_owned(),
+        x_label: Axis::Time.label().to_owned(),
+        y_label: "energy (J)".to_owned(),
+        shaded: course.first_switch().map(|first| [first, end]).into_iter().collect(),
+        series: ENTRIES.iter().map(series).collect(),
+        ..Plot::default()
+    }
 }

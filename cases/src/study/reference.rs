@@ -5,8 +5,9 @@ use super::richardson::{Estimate, extrapolate, observed_order};
 use super::{at_level, digest, resolution, variants};
 use crate::error::{Error, Result};
 use crate::file::SceneFile;
-use crate::observe::curve::Curve;
+use crate::observe::curve::{Axis, Curve};
 use crate::observe::probes::Reading;
+use crate::scene::quantity::Quantity;
 use crate::scene::study::ReferenceModel;
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, OnceLock};
@@ -16,10 +17,23 @@ use std::sync::{Arc, Mutex, OnceLock};
 pub struct Reference {
     /// Scalar probes.
     pub scalars: BTreeMap<String, Estimate>,
-    /// Line probes, with the standard uncertainty as a share of the largest value.
+    /// Probes along lines and over time, with the standard uncertainty as a share of the largest value.
     pub curves: BTreeMap<String, (Curve, f64)>,
     /// What it is, with its levels.
     pub about: String,
+}
+
+impl Reference {
+    /// What a quantity takes from its probe: a scalar, or one value of a history.
+    pub fn estimate(&self, quantity: &Quantity) -> Option<Estimate> {
+        if let Some(estimate) = self.scalars.get(&quantity.probe) {
+            return Some(*estimate);
+        }
+        let (curve, u) = self.curves.get(&quantity.probe)?;
+        let value = curve.take(quantity.take.unwrap_or_default())?;
+        let largest = curve.y.iter().fold(0.0f64, |m, y| m.max(y.abs()));
+        Some(Estimate { value, order: None, u: u * largest })
+    }
 }
 
 type Slot = Arc<OnceLock<std::result::Result<Arc<Reference>, String>>>;
@@ -45,13 +59,34 @@ impl Library {
         // The level's key is set in every run: its value in the scene must not tell scenes apart.
         let finest = declared.levels.values.last().map(|value| at_level(&declared.levels, value));
         let key = digest::digest(&base.with(finest.as_slice())?);
+        let found = self.once(key, || compute(&base, declared, tally));
+        found.map_err(|message| fail(format!("its reference model failed: {message}")))
+    }
+
+    /// Another run of the scene itself, compared as it is.
+    ///
+    /// # Errors
+    /// The run fails.
+    pub fn own_run(&self, file: &SceneFile, source: &str, tally: &Tally) -> Result<Arc<Reference>> {
+        let found = self.once(format!("run {}", file.hash()), || {
+            Ok(as_it_is(source, &evaluate::solve(file, tally)?.readings))
+        });
+        found.map_err(|message| Error::Study {
+            case: file.scene.id.clone(),
+            message: format!("the run it is compared with failed: {message}"),
+        })
+    }
+
+    fn once(
+        &self,
+        key: String,
+        compute: impl FnOnce() -> Result<Reference>,
+    ) -> std::result::Result<Arc<Reference>, String> {
         let slot = match self.known.lock() {
             Ok(mut known) => Arc::clone(known.entry(key).or_default()),
             Err(_) => Slot::default(),
         };
-        let found =
-            slot.get_or_init(|| compute(&base, declared, tally).map(Arc::new).map_err(|e| e.to_string()));
-        found.clone().map_err(|message| fail(format!("its reference model failed: {message}")))
+        slot.get_or_init(|| compute().map(Arc::new).map_err(|e| e.to_string())).clone()
     }
 }
 
@@ -64,7 +99,7 @@ fn compute(base: &SceneFile, declared: &ReferenceModel, tally: &Tally) -> Result
         sizes.push(resolution(value));
     }
     if let [only] = readings.as_slice() {
-        return Ok(as_it_is(declared, only));
+        return Ok(as_it_is(&declared.about, only));
     }
     let sizes: Option<Vec<f64>> = sizes.into_iter().collect();
     let (Some(sizes), [.., _, _, _]) = (sizes, readings.as_slice()) else {
@@ -100,8 +135,8 @@ fn compute(base: &SceneFile, declared: &ReferenceModel, tally: &Tally) -> Result
 }
 
 /// One level: the same mesh, compared as it is.
-fn as_it_is(declared: &ReferenceModel, readings: &Readings) -> Reference {
-    let mut reference = Reference { about: declared.about.clone(), ..Reference::default() };
+fn as_it_is(about: &str, readings: &Readings) -> Reference {
+    let mut reference = Reference { about: about.to_owned(), ..Reference::default() };
     for (probe, reading) in readings.iter() {
         match reading {
             Reading::Scalar(value) => {
@@ -124,6 +159,7 @@ fn extrapolate_curve(
     formal_order: f64,
 ) -> Option<(Curve, f64)> {
     let [c1, c2, c3] = [levels[0].curve(probe)?, levels[1].curve(probe)?, levels[2].curve(probe)?];
+    let [c1, c2, c3] = &at_shared_times([c1, c2, c3]);
     let difference =
         |a: &Curve, b: &Curve| a.y.iter().zip(&b.y).fold(0.0f64, |m, (a, b)| m.max((a - b).abs()));
     let (e32, e21) = (difference(c1, c2), difference(c2, c3));
@@ -138,5 +174,19 @@ fn extrapolate_curve(
     let shrink = 1.0 / (ratios[1].powf(p) - 1.0);
     let y = c2.y.iter().zip(&c3.y).map(|(f2, f3)| f3 - (f2 - f3) * shrink).collect();
     let safety = if near { 1.25 } else { 3.0 };
-    Some((Curve { x: c3.x.clone(), y }, 0.5 * safety * e21 * shrink / largest))
+    Some((Curve { axis: c3.axis, x: c3.x.clone(), y }, 0.5 * safety * e21 * shrink / largest))
+}
+
+/// Histories at the times of the finest level that lie inside of all; lines as they are.
+fn at_shared_times(levels: [&Curve; 3]) -> [Curve; 3] {
+    let finest = levels[2];
+    if finest.axis == Axis::Position {
+        return levels.map(Clone::clone);
+    }
+    let inside = |x: &f64| levels.iter().all(|level| level.at(*x).is_some());
+    let x: Vec<f64> = finest.x.iter().copied().filter(inside).collect();
+    levels.map(|level| {
+        let y = x.iter().filter_map(|x| level.at(*x)).collect();
+        Curve { axis: Axis::Time, x: x.clone(), y }
+    })
 }

@@ -42,7 +42,7 @@ impl Damping {
 
     /// Factor on the critical step. Where the local damping opposes a motion that `F` opposes too, it adds up to `α F`:
     /// stiffness grows by at most `1 + α`, frequency by its root. The viscous force is taken at `t_n` and costs nothing.
-    pub(super) fn step_factor(&self) -> f64 {
+    pub(crate) fn step_factor(&self) -> f64 {
         match self {
             Damping::NonViscous { share } => 1.0 / (1.0 + share).sqrt(),
             _ => 1.0,
@@ -50,7 +50,7 @@ impl Damping {
     }
 
     /// Rate α of mass-proportional damping, in 1/s.
-    pub(super) fn rate(&self) -> f64 {
+    pub(crate) fn rate(&self) -> f64 {
         match self {
             Damping::MassProportional { rate } => *rate,
             _ => 0.0,

@@ -36,6 +36,31 @@ impl LoadFactor {
         }
     }
 
+    /// When the factor first reaches `level` coming from zero, up to `end_s` (s); at zero time if it is there already.
+    pub fn first_reaches(&self, level: f64, end_s: f64) -> Option<f64> {
+        let knots: Vec<f64> = match self {
+            LoadFactor::Sudden => Vec::new(),
+            LoadFactor::Ramp { start_s, rise_s } => vec![*start_s, start_s + rise_s],
+            LoadFactor::Table(points) => points.iter().map(|p| p.0).collect(),
+        };
+        let inner = knots.into_iter().filter(|t| (0.0..end_s).contains(t));
+        let mut before = (0.0, self.at(0.0));
+        let reached = |f: f64| f * level.signum() >= level.abs();
+        if reached(before.1) {
+            return Some(0.0);
+        }
+        for t in inner.chain([end_s]) {
+            let f = self.at(t);
+            if reached(f) {
+                // Linear between two knots.
+                let (t0, f0) = before;
+                return Some((t0 + (level - f0) / (f - f0) * (t - t0)).min(t));
+            }
+            before = (t, f);
+        }
+        None
+    }
+
     /// Checks that the factor is defined at all times and acts before `end_s`; `what` names it.
     ///
     /// # Errors
@@ -83,6 +108,20 @@ mod tests {
             assert_eq!(ramp.at(t), table.at(t));
         }
         assert_eq!(ramp.at(2.0), 0.25);
+    }
+
+    #[test]
+    fn a_level_is_reached_from_zero() {
+        let ramp = LoadFactor::Ramp { start_s: 1.0, rise_s: 4.0 };
+        assert_eq!(ramp.first_reaches(0.25, 9.0), Some(2.0));
+        assert_eq!(ramp.first_reaches(1.0, 9.0), Some(5.0));
+        assert_eq!(ramp.first_reaches(0.5, 2.5), None);
+        assert_eq!(LoadFactor::Sudden.first_reaches(0.5, 1.0), Some(0.0));
+        let table = LoadFactor::Table(vec![(0.0, 0.5), (1.0, 0.75), (3.0, -1.0)]);
+        assert_eq!(table.first_reaches(0.25, 9.0), Some(0.0));
+        assert_eq!(table.first_reaches(0.625, 9.0), Some(0.5));
+        assert_eq!(table.first_reaches(-0.125, 9.0), Some(2.0));
+        assert_eq!(table.first_reaches(2.0, 9.0), None);
     }
 
     #[test]

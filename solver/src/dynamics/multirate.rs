@@ -16,10 +16,12 @@ use crate::error::{Error, Result};
 use crate::model::Model;
 use crate::work::Work;
 use nalgebra::{DMatrix, DVector, Dyn, LU};
+use serde::{Deserialize, Serialize};
 use side::{Side, SideMotion, Stepping};
 
 /// How the two rates meet.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Method {
     /// A multiplier every fine step.
     GravouilCombescure,
@@ -48,8 +50,10 @@ pub struct Rates {
 ///
 /// For γ = ½ each side obeys `[½aᵀAa + ½vᵀKv] = (1/Δt)[v]ᵀ[f]` exactly (Hughes 1983), brackets being
 /// changes over a step: the algorithmic energy changes by what loads and interface do in this sense, in J/s². The physical work of the
-/// interface, `−Σ ½(λ_n + λ_{n+1})·L[u]` of both sides in J, is another matter and not zero.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+/// interface, `−Σ ½(λ_n + λ_{n+1})·L[u]` of both sides in J, is another matter and not zero: it and the work of the loads are what
+/// changes [`Multirate::kinetic`] and strain energy.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub struct Ledger {
     /// Algorithmic energy now, in J/s².
     pub algorithmic: f64,
@@ -59,6 +63,8 @@ pub struct Ledger {
     pub interface: f64,
     /// Physical work of the interface on both sides, in J.
     pub physical_interface: f64,
+    /// Physical work of the loads on both sides, `Σ ½(f_n + f_{n+1})·Δu`, in J.
+    pub physical_external: f64,
     /// Largest gap of a constraint in displacement now, in m: velocities are tied, displacements drift.
     pub gap: f64,
 }
@@ -78,6 +84,8 @@ pub struct Multirate<'a> {
     lambda: Vec<f64>,
     time: f64,
     ledger: Ledger,
+    /// Loads at factor one on the coarse and the fine side, in N and N m.
+    loads: [Vec<f64>; 2],
 }
 
 /// Response of the fine side to one multiplier that grows from 0 to 1.
@@ -85,6 +93,8 @@ struct Ramp {
     end: SideMotion,
     /// `L u` after each fine step.
     traces: Vec<Vec<f64>>,
+    /// `f·u` with the loads at factor one after each fine step.
+    loaded: Vec<f64>,
 }
 
 impl<'a> Multirate<'a> {
@@ -118,11 +128,12 @@ impl<'a> Multirate<'a> {
             a: side.restrict(&motion.a),
         };
         let (coarse_motion, fine_motion) = (of(&coarse), of(&fine));
+        let loads = [&coarse, &fine].map(|side| side.restrict(&system.load));
         let ramps = match rates.method {
             Method::GravouilCombescure => Vec::new(),
             Method::PrakashHjelmstad => {
                 refuse_inner_rows(system, &coarse, rates.ratio)?;
-                ramps(&fine, system.rows.len(), rates.ratio, work)?
+                ramps(&fine, &loads[1], system.rows.len(), rates.ratio, work)?
             }
         };
         let interface = interface(&coarse, &fine, &ramps, system.rows.len(), work)?;
@@ -142,6 +153,7 @@ impl<'a> Multirate<'a> {
             lambda,
             time,
             ledger,
+            loads,
         })
     }
 
@@ -172,6 +184,12 @@ impl<'a> Multirate<'a> {
         self.ledger
     }
 
+    /// Kinetic energy of both sides, in J: with `½vᵀM v + ½(β−¼)Δt² aᵀM a`, which is `½ v₋ᵀM v₊` for central differences, physical
+    /// work balances exactly.
+    pub fn kinetic(&self) -> f64 {
+        self.coarse.kinetic(&self.coarse_motion) + self.fine.kinetic(&self.fine_motion)
+    }
+
     /// Multipliers at the end of the last step, in the units of the rows.
     pub fn multipliers(&self) -> &[f64] {
         &self.lambda
@@ -198,11 +216,13 @@ impl<'a> Multirate<'a> {
         let end_force = self.system.force(factor(self.time + self.coarse.step));
         self.coarse.step(&mut self.coarse_motion, &self.coarse.restrict(&end_force), work)?;
         let end = self.coarse.trace(&self.coarse_motion.v);
-        let mut force = self.system.force(factor(self.time));
+        let mut scale = factor(self.time);
+        let mut force = self.system.force(scale);
         for j in 1..=self.ratio {
             let (old, last) = (self.fine_motion.clone(), self.lambda.clone());
-            let last_force = force;
-            force = self.system.force(factor(self.time + j as f64 * self.fine.step));
+            let (last_scale, last_force) = (scale, force);
+            scale = factor(self.time + j as f64 * self.fine.step);
+            force = self.system.force(scale);
             self.fine.step(&mut self.fine_motion, &self.fine.restrict(&force), work)?;
             let share = j as f64 / self.ratio as f64;
             let own = self.fine.trace(&self.fine_motion.v);
@@ -212,6 +232,8 @@ impl<'a> Multirate<'a> {
             self.book(Which::Fine, &old, [&last_force, &force], [&last, &self.lambda.clone()]);
             let moved = difference(&self.fine.trace(&self.fine_motion.u), &self.fine.trace(&old.u));
             self.ledger.physical_interface -= mean_dot(&last, &self.lambda, &moved);
+            let moved = difference(&self.fine_motion.u, &old.u);
+            self.ledger.physical_external += 0.5 * (last_scale + scale) * dot(&self.loads[1], &moved);
         }
         self.coarse_motion.add(1.0, &self.coarse.link(&self.lambda, work)?);
         self.close_coarse(&before, &first, factor);
@@ -226,13 +248,16 @@ impl<'a> Multirate<'a> {
         self.coarse.step(&mut self.coarse_motion, &self.coarse.restrict(&end_force), work)?;
         let fading = self.fine.push(&first);
         let mut traces = vec![self.fine.trace(&fine_before.u)];
+        let (mut scales, mut loaded) = (vec![factor(self.time)], vec![dot(&self.loads[1], &fine_before.u)]);
         for j in 1..=self.ratio {
             let share = j as f64 / self.ratio as f64;
-            let force = self.system.force(factor(self.time + j as f64 * self.fine.step));
+            scales.push(factor(self.time + j as f64 * self.fine.step));
+            let force = self.system.force(scales[j]);
             let mut force = self.fine.restrict(&force);
             force.iter_mut().zip(&fading).for_each(|(f, p)| *f += (1.0 - share) * p);
             self.fine.step(&mut self.fine_motion, &force, work)?;
             traces.push(self.fine.trace(&self.fine_motion.u));
+            loaded.push(dot(&self.loads[1], &self.fine_motion.u));
         }
         let own = self.fine.trace(&self.fine_motion.v);
         let rhs = self.coarse.trace(&self.coarse_motion.v).iter().zip(&own).map(|(a, b)| a + b).collect();
@@ -242,6 +267,7 @@ impl<'a> Multirate<'a> {
             for (trace, response) in traces[1..].iter_mut().zip(&ramp.traces) {
                 trace.iter_mut().zip(response).for_each(|(t, r)| *t += l * r);
             }
+            loaded[1..].iter_mut().zip(&ramp.loaded).for_each(|(f, r)| *f += l * r);
         }
         self.coarse_motion.add(1.0, &self.coarse.link(&self.lambda, work)?);
         let at = |share: f64| -> Vec<f64> {
@@ -251,6 +277,7 @@ impl<'a> Multirate<'a> {
             let moved = difference(&traces[j], &traces[j - 1]);
             let shares = [j - 1, j].map(|k| k as f64 / self.ratio as f64);
             self.ledger.physical_interface -= mean_dot(&at(shares[0]), &at(shares[1]), &moved);
+            self.ledger.physical_external += 0.5 * (scales[j - 1] + scales[j]) * (loaded[j] - loaded[j - 1]);
         }
         // [v] of the fine steps adds up, since [λ] and, for loads linear over the step, [f] are the same in each:
         // Σ (1/δt) [v_j]·[λ]/m = (1/ΔT) [v]·[λ].
@@ -263,11 +290,14 @@ impl<'a> Multirate<'a> {
 
     /// Books the coarse side's part of a step.
     fn close_coarse(&mut self, before: &SideMotion, first: &[f64], factor: impl Fn(f64) -> f64) {
-        let forces = [self.time, self.time + self.coarse.step].map(|t| self.system.force(factor(t)));
+        let scales = [self.time, self.time + self.coarse.step].map(factor);
+        let forces = scales.map(|s| self.system.force(s));
         let lambda = self.lambda.clone();
         self.book(Which::Coarse, before, [&forces[0], &forces[1]], [first, &lambda]);
         let moved = difference(&self.coarse.trace(&self.coarse_motion.u), &self.coarse.trace(&before.u));
         self.ledger.physical_interface -= mean_dot(first, &lambda, &moved);
+        let moved = difference(&self.coarse_motion.u, &before.u);
+        self.ledger.physical_external += 0.5 * (scales[0] + scales[1]) * dot(&self.loads[0], &moved);
     }
 
     /// `(1/Δt)[v]ᵀ[f]` and `−(1/Δt)[L v]·[λ]` of one side.
@@ -312,19 +342,20 @@ fn singular() -> Error {
 }
 
 /// Response of the fine side from rest to each multiplier growing linearly over a coarse step.
-fn ramps(fine: &Side, rows: usize, ratio: usize, work: &mut Work) -> Result<Vec<Ramp>> {
+fn ramps(fine: &Side, load: &[f64], rows: usize, ratio: usize, work: &mut Work) -> Result<Vec<Ramp>> {
     (0..rows)
         .map(|k| {
             let unit = fine.push(&unit(rows, k));
             let mut motion = SideMotion::zero(unit.len());
-            let mut traces = Vec::with_capacity(ratio);
+            let (mut traces, mut loaded) = (Vec::with_capacity(ratio), Vec::with_capacity(ratio));
             for j in 1..=ratio {
                 let share = j as f64 / ratio as f64;
                 let force: Vec<f64> = unit.iter().map(|f| share * f).collect();
                 fine.step(&mut motion, &force, work)?;
                 traces.push(fine.trace(&motion.u));
+                loaded.push(dot(load, &motion.u));
             }
-            Ok(Ramp { end: motion, traces })
+            Ok(Ramp { end: motion, traces, loaded })
         })
         .collect()
 }
@@ -365,7 +396,8 @@ fn refuse_inner_rows(system: &Semidiscrete, coarse: &Side, ratio: usize) -> Resu
         None => Ok(()),
         Some(k) => Err(Error::EmptyInterface {
             tie: system.labels[k].clone(),
-            message: "it ties bodies of the fine side to each other; use Gravouil-Combescure, or put one of them on the coarse side"
+            message: "it ties bodies of the fine side to each other, but Prakash-Hjelmstad ties at coarse steps only; use Gravouil-Combescure, or \
+                      implicit steps for all"
                 .to_owned(),
         }),
     }

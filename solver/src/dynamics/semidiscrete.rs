@@ -39,6 +39,10 @@ pub struct Semidiscrete {
     held: Vec<f64>,
     /// Strain energy of the prescribed displacements alone, in J.
     held_energy: f64,
+    /// Stiffness in the rows of the prescribed unknowns, on all unknowns.
+    held_stiffness: Vec<(usize, usize, f64)>,
+    /// Loads on prescribed unknowns, in N and N m.
+    held_load: Vec<(usize, f64)>,
     /// Work of one product with K.
     product: Work,
     space: Space,
@@ -90,7 +94,15 @@ impl Semidiscrete {
         }
         let mass = lumped(model, &numbering)?;
         let (group, positions) = statics::points_of(model, &numbering, &free);
+        let mut held_stiffness = Vec::new();
+        for (r, c, k) in full.entries() {
+            let both = [(r, c), (c, r)];
+            let halves = &both[..if r == c { 1 } else { 2 }];
+            held_stiffness.extend(halves.iter().filter(|h| prescribed[h.0].is_some()).map(|h| (h.0, h.1, k)));
+        }
+        let loaded = |i: &usize| prescribed[*i].is_some() && load[*i] != 0.0;
         Ok(Semidiscrete {
+            held_load: (0..n).filter(loaded).map(|i| (i, load[i])).collect(),
             mass: free.iter().map(|&i| mass[i]).collect(),
             load: free.iter().map(|&i| load[i]).collect(),
             held_energy: 0.5 * dot(&alone, &internal),
@@ -105,6 +117,7 @@ impl Semidiscrete {
             prescribed,
             stiffness,
             held,
+            held_stiffness,
             product,
             group,
             positions,
@@ -163,6 +176,18 @@ impl Semidiscrete {
     pub fn gap(&self, u: &[f64]) -> f64 {
         let gaps = self.rows.iter().zip(&self.gaps).map(|(row, g)| (row_product(row, u) - g).abs());
         gaps.fold(0.0, f64::max)
+    }
+
+    /// Forces of supports and ties on each of all unknowns, `K u − f` and `−Bᵀλ`, at displacements `u` of all unknowns; in N
+    /// and N m.
+    pub fn reactions(&self, u: &[f64], multipliers: &[f64], factor: f64) -> Vec<f64> {
+        let mut reactions = vec![0.0; u.len()];
+        self.held_stiffness.iter().for_each(|&(i, j, k)| reactions[i] += k * u[j]);
+        self.held_load.iter().for_each(|&(i, f)| reactions[i] -= factor * f);
+        for (row, l) in self.rows.iter().zip(multipliers) {
+            row.iter().for_each(|&(i, b)| reactions[self.free[i]] -= b * l);
+        }
+        reactions
     }
 
     /// The motion of all unknowns; prescribed ones rest at their values.

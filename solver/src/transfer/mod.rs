@@ -14,3 +14,4 @@ pub mod region;
 pub mod report;
 mod state;
 pub mod substitution;
+pub mod ties;

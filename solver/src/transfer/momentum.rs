@@ -2,15 +2,19 @@
 
 use crate::dem::network::Particles;
 use crate::model::{Model, Numbering};
-use crate::space::{Space, Vec3};
+use crate::space::{Space, Vec3, components};
 use nalgebra::Matrix3;
+use serde::{Deserialize, Serialize};
 
 /// Momentum of a body or model about the origin.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub struct Momentum {
     /// `Σ m v`, in N s.
+    #[serde(with = "components")]
     pub linear: Vec3,
     /// `Σ (x × m v + J ω)`, in N m s.
+    #[serde(with = "components")]
     pub angular: Vec3,
 }
 

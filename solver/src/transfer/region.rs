@@ -50,8 +50,7 @@ impl Region {
     pub fn in_box(body: &Continuum, wanted: Block) -> Result<Region> {
         let mesh = &body.mesh;
         let dim = mesh.space.dim();
-        let inside = |x: Vec3| (0..dim).all(|i| x[i] > wanted.min[i] && x[i] < wanted.max[i]);
-        let cells: Vec<usize> = (0..mesh.cell_count()).filter(|&c| inside(centre(mesh, c))).collect();
+        let cells = cells_in(mesh, &wanted);
         let refuse =
             |message: String| Error::Switch { what: format!("region in body '{}'", body.name), message };
         if cells.is_empty() {
@@ -77,6 +76,12 @@ impl Region {
         }
         Ok(Region { cells, block })
     }
+}
+
+/// Cells whose centre lies in a box.
+pub(crate) fn cells_in(mesh: &Mesh, block: &Block) -> Vec<usize> {
+    let inside = |x: Vec3| (0..mesh.space.dim()).all(|i| x[i] > block.min[i] && x[i] < block.max[i]);
+    (0..mesh.cell_count()).filter(|&c| inside(centre(mesh, c))).collect()
 }
 
 /// Mean of a cell's nodes, in m.

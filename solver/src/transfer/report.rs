@@ -7,11 +7,13 @@ use crate::error::Result;
 use crate::model::{Model, Numbering, Part};
 use crate::solve::kkt::{EPSILONS, Kkt};
 use crate::solve::statics;
-use crate::space::Vec3;
+use crate::space::{Vec3, components};
 use crate::work::Work;
+use serde::{Deserialize, Serialize};
 
 /// Forces, energies and momentum of a model in a state.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub struct Balance {
     /// Strain energy, in J.
     pub strain: f64,
@@ -80,18 +82,22 @@ pub fn force_on(model: &Model, part: usize, state: &State, points: &[usize]) -> 
 }
 
 /// Force through one face of the region.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub struct InterfaceForce {
     /// Name of the face.
     pub face: String,
     /// By the elements that went, in N.
+    #[serde(with = "components")]
     pub before: Vec3,
     /// By the particles that came, in N.
+    #[serde(with = "components")]
     pub after: Vec3,
 }
 
 /// A switch, before and after.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub struct SwitchReport {
     /// Time of the switch, in s.
     pub time: f64,

@@ -197,6 +197,12 @@ impl Side {
         0.5 * (inertia + shift * dot(&motion.a, &ka) + dot(&motion.v, &kv))
     }
 
+    /// `½ vᵀM v + ½(β−¼)Δt² aᵀM a`, in J.
+    pub fn kinetic(&self, motion: &SideMotion) -> f64 {
+        let weigh = |x: &[f64]| x.iter().zip(&self.mass).map(|(x, m)| m * x * x).sum::<f64>();
+        0.5 * (weigh(&motion.v) + (self.beta - 0.25) * self.step * self.step * weigh(&motion.a))
+    }
+
     fn internal(&self, u: &[f64], work: &mut Work) -> Vec<f64> {
         let mut internal = vec![0.0; u.len()];
         self.stiffness.multiply_add(u, &mut internal);

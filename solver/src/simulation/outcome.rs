@@ -1,0 +1,89 @@
+//! What comes out of a run.
+
+use crate::dynamics::State;
+use crate::model::Model;
+use crate::transfer::report::SwitchReport;
+use crate::work::Work;
+use serde::{Deserialize, Serialize};
+
+/// Energies since the start, in J.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub struct Energies {
+    /// Kinetic energy.
+    pub kinetic: f64,
+    /// Strain energy.
+    pub strain: f64,
+    /// Work of loads and moving supports.
+    pub external: f64,
+    /// Work of damping, that of the scheme itself included: negative.
+    pub damping: f64,
+    /// Work of the ties.
+    pub interface: f64,
+    /// What the switches added: energy after less energy before.
+    pub transfer: f64,
+    /// Kinetic and strain energy at the start.
+    pub initial: f64,
+}
+
+impl Energies {
+    /// Energy that no entry accounts for.
+    pub fn imbalance(&self) -> f64 {
+        let come = self.initial + self.external + self.damping + self.interface + self.transfer;
+        self.kinetic + self.strain - come
+    }
+
+    /// [`Energies::imbalance`] over the largest entry; zero if all are zero.
+    pub fn closure(&self) -> f64 {
+        let entries = [
+            self.kinetic,
+            self.strain,
+            self.external,
+            self.damping,
+            self.interface,
+            self.transfer,
+            self.initial,
+        ];
+        let largest = entries.iter().fold(0.0f64, |m, e| m.max(e.abs()));
+        if largest > 0.0 { self.imbalance().abs() / largest } else { 0.0 }
+    }
+}
+
+/// A moment of a run.
+pub struct Snapshot<'a> {
+    /// The model as it is now.
+    pub model: &'a Model,
+    /// Its motion.
+    pub state: &'a State,
+    /// Load factor.
+    pub factor: f64,
+    /// Energies.
+    pub energies: Energies,
+    /// Gap `‖C u‖` of the ties, in m.
+    pub gap: f64,
+    /// Forces of supports and ties on each unknown, in N and N m.
+    pub reactions: &'a [f64],
+    /// Switches so far.
+    pub switches: usize,
+}
+
+/// The end of a run.
+#[derive(Debug, Clone)]
+pub struct Outcome {
+    /// The model at the end.
+    pub model: Model,
+    /// Its motion.
+    pub state: State,
+    /// Energies at the end.
+    pub energies: Energies,
+    /// Largest [`Energies::closure`] of all snapshots.
+    pub worst_closure: f64,
+    /// Name of the rule and report of every switch, in order.
+    pub switches: Vec<(String, SwitchReport)>,
+    /// Rows that were dropped and steps that were chosen, in words.
+    pub notes: Vec<String>,
+    /// What was done.
+    pub work: Work,
+    /// Wall time of the switches, in s. Not deterministic.
+    pub switch_seconds: f64,
+}

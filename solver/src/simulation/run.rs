@@ -1,0 +1,127 @@
+//! Going through time.
+
+use super::clock::Clock;
+use super::explicit::Central;
+use super::implicit::Implicit;
+use super::outcome::{Outcome, Snapshot};
+use super::plan::{Plan, Stepping};
+use super::quasi_static::Equilibria;
+use super::record::Record;
+use super::segment::{Course, Ending, Stepper};
+use super::switching::Rules;
+use super::two_rates::TwoRates;
+use super::{check, start};
+use crate::dynamics::State;
+use crate::error::Error;
+use crate::model::{Model, Part};
+use std::time::Instant;
+
+/// Runs a model from rest, or from the plan's velocities, at time zero to the end; `watch` sees the snapshots.
+///
+/// # Errors
+/// What a plan or its schemes refuse; what `watch` returns.
+pub fn run<E: From<Error>>(
+    mut model: Model,
+    plan: &Plan,
+    watch: &mut dyn FnMut(&Snapshot) -> Result<(), E>,
+) -> Result<Outcome, E> {
+    check::plan(&model, plan)?;
+    let mut record = Record::default();
+    let mut state = start::state(&model, plan, &mut record.work)?;
+    let mut course = Course::new(plan, Rules::new(&model, plan));
+    let mut now = 0.0;
+    let mut jobs = course.rules.ask(&model, &state.u, now)?;
+    loop {
+        while !jobs.is_empty() {
+            let began = Instant::now();
+            let factor = plan.loads.at(state.time);
+            for job in &jobs {
+                let reports = course.rules.apply(job, &mut model, &mut state, factor, &mut record.work)?;
+                course.switches += reports.len();
+                record.switches.extend(reports);
+            }
+            record.switch_seconds += began.elapsed().as_secs_f64();
+            // Another rule may be due at the same time.
+            jobs = course.rules.ask(&model, &state.u, now)?;
+        }
+        let ending = segment(&mut course, &model, &state, &mut record, watch)?;
+        if ending.jobs.is_empty() {
+            let Ending { look, energies, .. } = ending;
+            if course.merged > 0 {
+                record.note(format!(
+                    "{} outputs share a step boundary with another: fewer snapshots were taken",
+                    course.merged
+                ));
+            }
+            let Record { work, notes, switches, switch_seconds } = record;
+            return Ok(Outcome {
+                model,
+                state: look.state,
+                energies,
+                worst_closure: course.worst_closure,
+                switches,
+                notes,
+                work,
+                switch_seconds,
+            });
+        }
+        state = ending.look.state;
+        (jobs, now) = (ending.jobs, ending.now);
+    }
+}
+
+/// One stepper on one model.
+fn segment<E: From<Error>>(
+    course: &mut Course,
+    model: &Model,
+    from: &State,
+    record: &mut Record,
+    watch: &mut dyn FnMut(&Snapshot) -> Result<(), E>,
+) -> Result<Ending, E> {
+    let plan = course.plan;
+    let mut follow = |stepper: &mut dyn Stepper, clock: &Clock, record: &mut Record| {
+        let ending = course.follow(model, stepper, clock, watch);
+        record.work += stepper.work();
+        ending
+    };
+    match stepping_of(model, plan) {
+        Stepping::QuasiStatic { step_s } => {
+            let system = record.assemble(model)?;
+            let clock = record.steps(from, plan, step_s);
+            let mut stepper = Equilibria::new(model, &system, &plan.loads, clock, from)?;
+            follow(&mut stepper, &clock, record)
+        }
+        Stepping::Implicit { scheme, step_s } => {
+            let system = record.assemble(model)?;
+            let clock = record.steps(from, plan, step_s);
+            let scheme = (scheme, plan.damping.rate());
+            let mut stepper = Implicit::new(&system, scheme, &plan.loads, clock, from)?;
+            follow(&mut stepper, &clock, record)
+        }
+        Stepping::Explicit { step } => {
+            let clock = record.explicit_steps(model, from, plan, step)?;
+            let mut stepper = Central::new(model, plan, &clock, from)?;
+            stepper.0.system().notes.iter().for_each(|n| record.note(n.clone()));
+            follow(&mut stepper, &clock, record)
+        }
+        Stepping::TwoRates { method, step_s, fine, .. } => {
+            let system = record.assemble(model)?;
+            let clock = record.steps(from, plan, step_s);
+            let ratio = record.ratio(model, from, &clock, fine)?;
+            let mut stepper = TwoRates::new(model, &system, (method, ratio), &plan.loads, clock, from)?;
+            follow(&mut stepper, &clock, record)
+        }
+    }
+}
+
+/// Two rates need two sides: elements alone are stepped implicitly, particles alone explicitly.
+fn stepping_of(model: &Model, plan: &Plan) -> Stepping {
+    let particles = model.parts.iter().filter(|p| matches!(p, Part::Discrete { .. })).count();
+    match plan.stepping {
+        Stepping::TwoRates { scheme, step_s, .. } if particles == 0 => Stepping::Implicit { scheme, step_s },
+        Stepping::TwoRates { fine, .. } if particles == model.parts.len() => {
+            Stepping::Explicit { step: fine }
+        }
+        other => other,
+    }
+}

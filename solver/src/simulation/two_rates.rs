@@ -1,0 +1,86 @@
+//! Elements implicitly, particles explicitly in smaller steps.
+
+use super::clock::Clock;
+use super::implicit::look;
+use super::segment::{Look, Stepper};
+use crate::dynamics::State;
+use crate::dynamics::ledger::WorkDone;
+use crate::dynamics::load::LoadFactor;
+use crate::dynamics::multirate::side::Stepping;
+use crate::dynamics::multirate::{Method, Multirate, Rates};
+use crate::dynamics::newmark::start;
+use crate::dynamics::semidiscrete::{Motion, Semidiscrete};
+use crate::error::Result;
+use crate::model::{Model, Part};
+use crate::work::Work;
+
+/// A run at two rates.
+pub(super) struct TwoRates<'a> {
+    system: &'a Semidiscrete,
+    multirate: Multirate<'a>,
+    loads: &'a LoadFactor,
+    clock: Clock,
+    taken: usize,
+    work: Work,
+}
+
+impl<'a> TwoRates<'a> {
+    /// Starts from a state; its accelerations follow from the forces. `ratio` is the number of fine steps per coarse one.
+    ///
+    /// # Errors
+    /// As [`Multirate::new`] and [`start`].
+    pub fn new(
+        model: &Model,
+        system: &'a Semidiscrete,
+        (method, ratio): (Method, usize),
+        loads: &'a LoadFactor,
+        clock: Clock,
+        from: &State,
+    ) -> Result<Self> {
+        let mut work = Work::default();
+        let Motion { u, v, .. } = system.motion(from);
+        let (motion, lambda) = start(system, (u, v), from.time, loads.at(from.time), 0.0, &mut work)?;
+        let particles = |p: &usize| matches!(model.parts[*p], Part::Discrete { .. });
+        let rates = Rates {
+            method,
+            coarse_step: clock.step,
+            ratio,
+            coarse: Stepping::Implicit,
+            fine: Stepping::Explicit,
+            fine_parts: (0..model.parts.len()).filter(particles).collect(),
+        };
+        let multirate = Multirate::new(model, system, &rates, (&motion, lambda), &mut work)?;
+        Ok(TwoRates { system, multirate, loads, clock, taken: 0, work })
+    }
+}
+
+impl Stepper for TwoRates<'_> {
+    fn advance(&mut self, steps: usize) -> Result<()> {
+        for _ in 0..steps {
+            self.multirate.step(|t| self.loads.at(t), &mut self.work)?;
+            self.taken += 1;
+        }
+        Ok(())
+    }
+
+    fn displacements(&self) -> Vec<f64> {
+        self.system.state(&self.multirate.motion()).u
+    }
+
+    fn look(&mut self) -> Result<Look> {
+        let motion = Motion { time: self.clock.time(self.taken), ..self.multirate.motion() };
+        let ledger = self.multirate.ledger();
+        let done = WorkDone {
+            external: ledger.physical_external,
+            damping: 0.0,
+            interface: ledger.physical_interface,
+        };
+        let lambda = self.multirate.multipliers();
+        let energies = (self.multirate.kinetic(), done);
+        Ok(look(self.system, &motion, lambda, self.loads.at(motion.time), energies))
+    }
+
+    fn work(&self) -> Work {
+        self.work
+    }
+}
