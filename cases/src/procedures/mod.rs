@@ -4,6 +4,10 @@
 
 mod bar_impact;
 mod bar_sudden_load;
+pub(crate) mod bond_for_bond;
+mod bond_for_bond_dynamic;
+mod bond_for_bond_networks;
+mod bond_for_bond_static;
 mod bond_matrix;
 mod calculix;
 mod cantilever_eigenfrequencies;
@@ -39,6 +43,8 @@ type Procedure = fn(&Setting, &mut CaseResult) -> Result<()>;
 const REGISTRY: &[(&str, Procedure)] = &[
     ("bar-impact", bar_impact::run),
     ("bar-sudden-load", bar_sudden_load::run),
+    (bond_for_bond::DYNAMIC, bond_for_bond_dynamic::run),
+    (bond_for_bond::STATIC, bond_for_bond_static::run),
     ("bond-matrix", bond_matrix::run),
     ("calculix", calculix::run),
     ("cantilever-eigenfrequencies", cantilever_eigenfrequencies::run),
