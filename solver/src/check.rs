@@ -3,7 +3,7 @@
 use crate::error::{Error, Result};
 use crate::fem::locate::Locator;
 use crate::model::{Model, Part, PointValue};
-use crate::space::{Space, Vec3};
+use crate::space::Vec3;
 
 /// Bodies may penetrate by this share of their size before they count as overlapping: rounding, not geometry.
 const TOUCH: f64 = 1e-6;
@@ -110,13 +110,21 @@ fn bounds(part: &Part) -> (Vec3, Vec3) {
 fn inside(part: &Part, body: &Part, touch: f64) -> bool {
     let Part::Continuum(body) = body else { return false };
     let locator = Locator::new(&body.mesh);
-    let directions: &[Vec3] = match body.mesh.space {
-        Space::Plane => &[Vec3::new(1.0, 0.0, 0.0), Vec3::new(0.0, 1.0, 0.0)],
-        Space::Solid => &[Vec3::new(1.0, 0.0, 0.0), Vec3::new(0.0, 1.0, 0.0), Vec3::new(0.0, 0.0, 1.0)],
+    // Off along the diagonals: at a re-entrant corner of the elements every axis still leads into or along them.
+    let dim = body.mesh.space.dim();
+    let off = |corner: usize| {
+        Vec3::from_fn(|i, _| {
+            if i >= dim {
+                0.0
+            } else if corner >> i & 1 == 0 {
+                touch
+            } else {
+                -touch
+            }
+        })
     };
     let deep = |x: &Vec3| {
-        locator.find(*x).is_some()
-            && directions.iter().all(|d| [touch, -touch].iter().all(|s| locator.find(x + d * *s).is_some()))
+        locator.find(*x).is_some() && (0..1 << dim).all(|corner| locator.find(x + off(corner)).is_some())
     };
     let centres = match part {
         Part::Continuum(c) => {

@@ -47,6 +47,12 @@ pub fn run<E: From<Error>>(
         let ending = segment(&mut course, &model, &state, &mut record, watch)?;
         if ending.jobs.is_empty() {
             let Ending { look, energies, .. } = ending;
+            if course.merged > 0 {
+                record.note(format!(
+                    "{} outputs share a step boundary with another: fewer snapshots were taken",
+                    course.merged
+                ));
+            }
             let Record { work, notes, switches, switch_seconds } = record;
             return Ok(Outcome {
                 model,

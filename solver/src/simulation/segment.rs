@@ -47,6 +47,8 @@ pub(super) struct Course<'a> {
     ended: Option<f64>,
     /// The output that comes next.
     next_output: usize,
+    /// Outputs that fell on a step boundary with another.
+    pub merged: usize,
     /// Switches so far.
     pub switches: usize,
     /// Largest closure of the snapshots.
@@ -71,6 +73,7 @@ impl<'a> Course<'a> {
             base: Energies::default(),
             ended: None,
             next_output: 0,
+            merged: 0,
             switches: 0,
             worst_closure: 0.0,
         }
@@ -97,10 +100,12 @@ impl<'a> Course<'a> {
                     return Ok(self.end(stepper.look()?, jobs, now));
                 }
             }
-            if clock.nearest(self.output_time()) <= k {
+            if self.next_output <= self.plan.outputs && clock.nearest(self.output_time()) <= k {
                 self.show(model, &stepper.look()?, watch)?;
-                while clock.nearest(self.output_time()) <= k && self.next_output <= self.plan.outputs {
+                self.next_output += 1;
+                while self.next_output <= self.plan.outputs && clock.nearest(self.output_time()) <= k {
                     self.next_output += 1;
+                    self.merged += 1;
                 }
             }
             if k == clock.count {

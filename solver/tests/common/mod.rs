@@ -1,6 +1,8 @@
 //! Bodies and models shared by the tests of the solver; no test uses all of them.
 #![allow(dead_code)]
 
+pub mod ramp;
+
 use seam_solver::coupling::{Method, Multipliers, Tie};
 use seam_solver::dem::arrangement::Matter;
 use seam_solver::dem::block::Block;
