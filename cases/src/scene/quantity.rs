@@ -1,5 +1,6 @@
 //! `[quantities.NAME]`: a number to be judged, what it is compared with, and how close it must be.
 
+use super::Tier;
 use super::number::Number;
 use crate::result::ReferenceKind;
 use schemars::JsonSchema;
@@ -16,6 +17,9 @@ pub struct Quantity {
     pub unit: Option<String>,
     /// Name of the probe.
     pub probe: String,
+    /// When it is measured.
+    #[serde(default = "super::both_tiers")]
+    pub tiers: Vec<Tier>,
     /// Variants of the scene it is read off; the scene itself if there are none.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub variants: Vec<String>,

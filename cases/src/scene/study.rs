@@ -4,6 +4,7 @@
 //! `--set key.path=value` does.
 
 use super::Scene;
+use super::Tier;
 use super::de::De;
 use super::number::Number;
 use super::quantity::{Norm, Zone};
@@ -166,6 +167,9 @@ pub struct Reading {
 pub struct BudgetDeclaration {
     /// Caption.
     pub title: String,
+    /// When it is computed.
+    #[serde(default = "super::both_tiers")]
+    pub tiers: Vec<Tier>,
     /// Name of the quantity; its reference is the whole.
     pub quantity: String,
     /// Variants of the run whose error is split.
@@ -203,6 +207,9 @@ pub struct Part {
 pub struct CostDeclaration {
     /// Caption.
     pub title: String,
+    /// When it is computed.
+    #[serde(default = "super::both_tiers")]
+    pub tiers: Vec<Tier>,
     /// Name of the quantity whose relative error counts.
     pub quantity: String,
     /// Resolutions.

@@ -12,7 +12,8 @@ use crate::scene::study::{BudgetDeclaration, Part, Seeds};
 
 /// All budgets of the scene.
 pub fn all(study: &Study) -> Result<Vec<Budget>> {
-    study.file.scene.budgets.iter().map(|(name, declared)| one(study, name, declared)).collect()
+    let now = study.file.scene.budgets.iter().filter(|(_, declared)| declared.tiers.contains(&study.tier));
+    now.map(|(name, declared)| one(study, name, declared)).collect()
 }
 
 fn one(study: &Study, name: &str, declared: &BudgetDeclaration) -> Result<Budget> {

@@ -16,7 +16,8 @@ const REPEATS: usize = 5;
 
 /// All cost diagrams of the scene.
 pub fn all(study: &Study) -> Result<Vec<CostDiagram>> {
-    study.file.scene.costs.iter().map(|(name, declared)| one(study, name, declared)).collect()
+    let now = study.file.scene.costs.iter().filter(|(_, declared)| declared.tiers.contains(&study.tier));
+    now.map(|(name, declared)| one(study, name, declared)).collect()
 }
 
 fn one(study: &Study, name: &str, declared: &CostDeclaration) -> Result<CostDiagram> {

@@ -17,7 +17,8 @@ use std::sync::Arc;
 pub fn all(study: &Study, solved: &Solved, refined: &BTreeMap<String, Refined>) -> Result<Vec<Observation>> {
     let mut runs: BTreeMap<&[String], (SceneFile, Solved)> = BTreeMap::new();
     let mut all = Vec::new();
-    for (name, quantity) in &study.file.scene.quantities {
+    let now = |q: &Quantity| q.tiers.contains(&study.tier);
+    for (name, quantity) in study.file.scene.quantities.iter().filter(|(_, q)| now(q)) {
         let refined = refined.get(name);
         if quantity.variants.is_empty() {
             all.push(one(study, study, name, quantity, solved, refined)?);
