@@ -86,10 +86,15 @@ impl Corotational {
 
     /// `Q ← exp(scale · θ) Q` with the rotation components of `q`, a vector over all degrees of freedom.
     pub fn turn(&mut self, q: &[f64], scale: f64) {
-        let (dim, per) = (self.space.dim(), self.space.dofs_per_particle());
-        for (orientation, q) in self.orientation.iter_mut().zip(q.chunks_exact(per)) {
-            let theta = spread(self.space.rotation_axes(), &q[dim..]) * scale;
-            *orientation = rotation_by(theta) * *orientation;
+        match self.space {
+            Space::Plane => self.turn_each(q.as_chunks().0, |[_, _, z]| Vec3::new(0.0, 0.0, z) * scale),
+            Space::Solid => self.turn_each(q.as_chunks().0, |[_, _, _, x, y, z]| Vec3::new(x, y, z) * scale),
+        }
+    }
+
+    fn turn_each<const D: usize>(&mut self, q: &[[f64; D]], theta: impl Fn([f64; D]) -> Vec3) {
+        for (orientation, q) in self.orientation.iter_mut().zip(q) {
+            *orientation = rotation_by(theta(*q)) * *orientation;
             // Rounding would let the length drift over millions of steps.
             orientation.renormalize_fast();
         }
