@@ -42,7 +42,8 @@ pub enum Stepping {
         /// Δt.
         step: Step,
     },
-    /// Elements implicitly at `step_s`, particles explicitly at a fraction of it; without particles, [`Stepping::Implicit`].
+    /// Elements implicitly at `step_s`, particles explicitly at a fraction of it; without particles, [`Stepping::Implicit`], and
+    /// without elements, [`Stepping::Explicit`]. Undamped, and the scheme is the trapezoidal rule.
     TwoRates {
         /// How the two meet.
         method: multirate::Method,
@@ -72,13 +73,14 @@ pub enum When {
         /// Where.
         block: Block,
     },
-    /// Whenever a criterion chooses elements that are not yet particles: it finds the region and may do so again.
+    /// Whenever a criterion chooses elements that are not yet particles: it finds the region and may do so again. The region is the
+    /// box around all that it chose so far; what of it is not particles yet is filled in boxes, each a body.
     Criterion {
         /// What chooses.
         criterion: Criterion,
         /// How often it is asked, in s; never tied to output.
         every_s: f64,
-        /// Most switches.
+        /// Most times that the region may be made or grow.
         most: usize,
         /// Axes along which the region always reaches through the whole body, as over the section of a beam.
         through: [bool; 3],
@@ -115,9 +117,9 @@ pub struct Plan<'a> {
     pub end_s: f64,
     /// Velocity of each point at the start, in m/s, by part and point; at rest if `None`.
     pub initial_velocity: Option<&'a dyn Fn(usize, crate::space::Vec3) -> crate::space::Vec3>,
-    /// Factor on the loads over time.
+    /// Factor on the loads over time. Supports keep their values from the start on.
     pub loads: LoadFactor,
-    /// Damping. Implicit steps know no local damping and refuse it.
+    /// Damping. Implicit steps know no local damping, two rates and equilibria none at all; they refuse it.
     pub damping: Damping,
     /// Small or finite rotations of particles; finite ones need explicit steps and no elements.
     pub rotations: Rotations,
