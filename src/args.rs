@@ -41,6 +41,8 @@ pub enum Verb {
     Check(Check),
     /// Write the report page from the results of a run
     Report(Report),
+    /// Write the network or mesh of a case for another code
+    Export(Export),
 }
 
 /// `seam validate`
@@ -124,6 +126,34 @@ pub struct Run {
     /// How the cases are run
     #[command(flatten)]
     pub running: Running,
+}
+
+/// `seam export`
+#[derive(Debug, Args)]
+pub struct Export {
+    /// Id of the catalogue or path of a scene file
+    #[arg(value_name = "ID|SCENE.toml")]
+    pub case: String,
+    /// The code that is to read it
+    #[arg(long = "for", value_enum, value_name = "CODE")]
+    pub code: Code,
+    /// Set a key of the scene, e.g. --set bodies.left.enabled=false
+    #[arg(long = "set", value_name = "KEY.PATH=VALUE")]
+    pub overrides: Vec<String>,
+    /// Folder; each network of a case gets one of its own in it
+    #[arg(long, value_name = "DIR", default_value = "export")]
+    pub out: PathBuf,
+}
+
+/// Another code.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Code {
+    /// Bonded particles
+    Yade,
+    /// Bonded particles (BPM package)
+    Lammps,
+    /// Finite elements
+    Calculix,
 }
 
 /// `seam check`

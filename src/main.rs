@@ -23,6 +23,7 @@ fn main() -> ExitCode {
         Verb::Run(words) => verbs::run(&words),
         Verb::Check(words) => verbs::check(&words),
         Verb::Report(words) => verbs::report(&words),
+        Verb::Export(words) => verbs::export(&words),
     };
     let exit = done.unwrap_or_else(|error| {
         eprintln!("seam: {}", message::of(&error));

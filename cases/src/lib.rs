@@ -4,6 +4,7 @@
 
 pub mod catalogue;
 pub mod error;
+pub mod export;
 pub mod expression;
 pub mod file;
 pub mod folder;

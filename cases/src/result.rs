@@ -106,6 +106,8 @@ pub enum ReferenceKind {
     Prototype,
     /// A measurement.
     Experiment,
+    /// Seam itself with other settings: shows a difference, not an accuracy.
+    OwnRun,
     /// Our own last accepted value.
     Regression,
 }

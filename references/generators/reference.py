@@ -11,7 +11,8 @@ import os
 import platform
 from pathlib import Path
 
-DATA = Path(__file__).resolve().parent.parent / "data"
+# Where `seam references regenerate` wants the new files, to compare them before they replace anything.
+DATA = Path(os.environ.get("SEAM_REFERENCES", Path(__file__).resolve().parent.parent / "data"))
 
 
 def sha256(data: bytes) -> str:

@@ -1,9 +1,13 @@
-//! Bond updates per second, integration included, on solid networks; and the share of the machine's limit.
+//! Bond updates per second on solid networks, and the share of the machine's limits that this is.
 //!
-//! `cargo bench -p seam-solver --bench kernel`. Throughput is in bond updates. The limits are measured on
-//! the spot: the stream bandwidth of one core (`a ← b + s c`, three streams), and what one bond moves.
+//! `cargo bench -p seam-solver --bench kernel`. Everything is measured in turns, on the spot, so that whatever else the
+//! machine does meets all alike: the table gives medians, and medians of the ratios within a turn. On a busy machine the
+//! ratio of the bests tells what two threads can do, and the median what they got. Integration is included, but for
+//! `forces`. Also the limits are measured as this crate is compiled, so that arithmetic is that of SSE2.
 
-use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
+use rand::SeedableRng;
+use rand::seq::SliceRandom;
+use rand_chacha::ChaCha8Rng;
 use seam_solver::dem::arrangement::Matter;
 use seam_solver::dem::block::Block;
 use seam_solver::dem::bond::BondMaterial;
@@ -16,9 +20,20 @@ use seam_solver::dem::lattice::{LatticeKind, lattice};
 use seam_solver::dem::network::Network;
 use seam_solver::dem::section::Section;
 use seam_solver::dem::skin::Skin;
+use seam_solver::dynamics::State;
+use seam_solver::dynamics::explicit::{Explicit, Options};
+use seam_solver::dynamics::forces::Rotations;
+use seam_solver::model::{Model, Part};
 use seam_solver::space::{Space, Vec3};
 use std::hint::black_box;
 use std::time::Instant;
+
+const TURNS: usize = 31;
+/// Bond updates of each contender and turn: long beside the start of a thread.
+const UPDATES: usize = 2_000_000;
+/// Products and sums of a solid bond, and of the integration of a particle.
+const BOND_FLOPS: f64 = 78.0;
+const PARTICLE_FLOPS: f64 = 24.0;
 
 /// A face-centred cubic bar, twice as long as high, of about `4·2·rows³` particles.
 fn network(rows: usize) -> Network {
@@ -34,109 +49,199 @@ fn network(rows: usize) -> Network {
     renumber(&network, &order(&network))
 }
 
-/// Bytes per second of `a ← b + s c` on arrays far larger than the caches of one core.
-fn stream_bandwidth() -> f64 {
+/// Bytes per second of `a ← b + s c` on `threads` threads, with arrays far larger than the caches.
+fn stream_bandwidth(threads: usize) -> f64 {
     const N: usize = 8_000_000;
     let (mut a, b, c) = (vec![0.0; N], vec![1.0; N], vec![2.0; N]);
+    let part = N / threads;
     let mut best = f64::INFINITY;
-    for round in 0..8 {
+    for round in 0..10 {
         let s = f64::from(round);
         let start = Instant::now();
-        a.iter_mut().zip(b.iter().zip(&c)).for_each(|(a, (b, c))| *a = b + s * c);
+        std::thread::scope(|scope| {
+            for (a, (b, c)) in a.chunks_mut(part).zip(b.chunks(part).zip(c.chunks(part))) {
+                scope.spawn(move || {
+                    a.iter_mut().zip(b.iter().zip(c)).for_each(|(a, (b, c))| *a = b + s * c);
+                });
+            }
+        });
         best = best.min(start.elapsed().as_secs_f64());
         black_box(&a);
     }
     24.0 * N as f64 / best
 }
 
-fn bond_updates(c: &mut Criterion) {
-    let bandwidth = stream_bandwidth();
-    let mut group = c.benchmark_group("bond_updates");
-    group.sample_size(20);
-    for (name, rows) in [("solid/20k", 13), ("solid/200k", 29)] {
+/// Products and sums per second of one core, as this crate is compiled: many independent chains `x ← x a + b`.
+fn arithmetic() -> f64 {
+    const ROUNDS: usize = 2_000_000;
+    let mut best = f64::INFINITY;
+    for _ in 0..10 {
+        let (mut x, a, b) = (black_box([1.0f64; 24]), black_box(0.5), black_box(0.25));
+        let start = Instant::now();
+        for _ in 0..ROUNDS {
+            x.iter_mut().for_each(|x| *x = *x * a + b);
+        }
+        best = best.min(start.elapsed().as_secs_f64());
+        black_box(x);
+    }
+    48.0 * ROUNDS as f64 / best
+}
+
+struct Contender<'a> {
+    name: &'static str,
+    /// The contender that the ratio is against.
+    against: usize,
+    /// Updates every bond so many times.
+    run: Box<dyn FnMut(usize) + 'a>,
+}
+
+fn explicit(network: &Network, rotations: Rotations) -> Explicit {
+    let model = Model {
+        space: Space::Solid,
+        parts: vec![Part::Discrete { name: "bar".to_owned(), network: network.clone() }],
+        ties: Vec::new(),
+        supports: Vec::new(),
+        loads: Vec::new(),
+    };
+    let options = Options { step_s: 1e-6, rotations, ..Options::default() };
+    let mut start = State::at_rest(6 * network.particles.len());
+    start.u.iter_mut().enumerate().filter(|(i, _)| i % 6 < 3).for_each(|(i, u)| *u = wave(i));
+    Explicit::new(&model, options, &start).expect("a run")
+}
+
+fn wave(i: usize) -> f64 {
+    1e-6 * (0.1 * i as f64).sin()
+}
+
+fn vibration(network: &Network, threads: usize) -> Vibration {
+    let mut vibration = Vibration::new(network, "bar", threads).expect("a network");
+    let n = 6 * network.particles.len();
+    vibration.set(&(0..n).map(wave).collect::<Vec<_>>(), &vec![0.0; n]);
+    vibration
+}
+
+/// The same network, its particles numbered at random.
+fn shuffled(network: &Network) -> Network {
+    let mut shuffle: Vec<usize> = (0..network.particles.len()).collect();
+    shuffle.shuffle(&mut ChaCha8Rng::seed_from_u64(1));
+    renumber(network, &shuffle)
+}
+
+fn contenders(network: &Network) -> Vec<Contender<'_>> {
+    let n = 6 * network.particles.len();
+    let u: Vec<f64> = (0..n).map(|i| 100.0 * wave(i)).collect();
+    let kernel = Kernel::new(network, "bar").expect("a network");
+    let mut finite = Corotational::new(network, "bar").expect("a network");
+    let [mut one, mut two] = [1, 2].map(|threads| vibration(network, threads));
+    let [mut small_run, mut finite_run] =
+        [Rotations::Small, Rotations::Finite].map(|rotations| explicit(network, rotations));
+    let mut shuffled_run = explicit(&shuffled(network), Rotations::Small);
+    let (v, mut f, mut g) = (u.clone(), vec![0.0; n], vec![0.0; n]);
+    vec![
+        Contender {
+            name: "Vibration, 1 thread",
+            against: 0,
+            run: Box::new(move |steps| one.advance(1e-6, steps)),
+        },
+        Contender {
+            name: "Vibration, 2 threads",
+            against: 0,
+            run: Box::new(move |steps| two.advance(1e-6, steps)),
+        },
+        Contender {
+            name: "Explicit, small",
+            against: 0,
+            run: Box::new(move |steps| small_run.advance(steps as u64).expect("steps")),
+        },
+        Contender {
+            name: "Explicit, finite",
+            against: 2,
+            run: Box::new(move |steps| finite_run.advance(steps as u64).expect("steps")),
+        },
+        Contender {
+            name: "Explicit, small, shuffled",
+            against: 2,
+            run: Box::new(move |steps| shuffled_run.advance(steps as u64).expect("steps")),
+        },
+        Contender {
+            name: "forces, small",
+            against: 5,
+            run: Box::new(move |steps| (0..steps).for_each(|_| kernel.add_internal(black_box(&u), &mut f))),
+        },
+        Contender {
+            name: "turn and forces, finite",
+            against: 5,
+            run: Box::new(move |steps| {
+                for _ in 0..steps {
+                    // Turning the particles is part of the price.
+                    finite.turn(&v, 1e-3);
+                    finite.add_internal(black_box(&v), &mut g);
+                }
+            }),
+        },
+    ]
+}
+
+fn median(mut values: Vec<f64>) -> f64 {
+    values.sort_by(f64::total_cmp);
+    values[values.len() / 2]
+}
+
+fn main() {
+    let stream = [1, 2].map(stream_bandwidth);
+    let flops = arithmetic();
+    println!(
+        "limits: stream {:.1} GB/s on one thread, {:.1} on two; {:.1} Gflop/s on one core",
+        stream[0] * 1e-9,
+        stream[1] * 1e-9,
+        flops * 1e-9
+    );
+    for (size, rows) in [("20k", 13), ("200k", 29)] {
         let network = network(rows);
         let (particles, bonds) = (network.particles.len(), network.bonds.len());
+        let per_bond = particles as f64 / bonds as f64;
         // A bond's record and partner, 60 bytes; a particle's u, v, f (read and written), inverse mass and inertia.
-        let bytes = 60.0 + particles as f64 / bonds as f64 * (2.0 * 3.0 * 48.0 + 16.0);
-        eprintln!(
-            "{name}: {particles} particles, {bonds} bonds, {bytes:.0} bytes per bond; stream {:.1} GB/s allows {:.0} M/s per core",
-            bandwidth * 1e-9,
-            bandwidth / bytes * 1e-6
+        let bytes = 60.0 + per_bond * (2.0 * 3.0 * 48.0 + 16.0);
+        let flops_per_bond = BOND_FLOPS + per_bond * PARTICLE_FLOPS;
+        println!(
+            "\n{size}: {particles} particles, {bonds} bonds; {bytes:.0} bytes and {flops_per_bond:.0} products and sums per bond"
         );
-        let n = 6 * particles;
-        let u: Vec<f64> = (0..n).map(|i| 1e-6 * (0.1 * i as f64).sin()).collect();
-        let steps = 4_000_000 / bonds + 1;
-        group.throughput(Throughput::Elements((steps * bonds) as u64));
-        for threads in [1, 2] {
-            let mut vibration = Vibration::new(&network, "bar", threads).expect("a network");
-            vibration.set(&u, &vec![0.0; n]);
-            group.bench_function(BenchmarkId::new(name, format!("{threads} thread")), |b| {
-                b.iter(|| vibration.advance(1e-6, black_box(steps)));
-            });
-        }
-    }
-    group.finish();
-}
-
-/// One thread against two in pairs, and the best of each: on a machine that others use, the best tells what the
-/// threads can do and the median what they got.
-fn threads_in_pairs(_: &mut Criterion) {
-    // Criterion's filter knows its own benchmarks only.
-    if std::env::args().any(|a| a.starts_with("forces") || a.starts_with("bond_updates")) {
-        return;
-    }
-    for (name, rows) in [("solid/20k", 13), ("solid/200k", 29)] {
-        let network = network(rows);
-        let n = 6 * network.particles.len();
-        let mut runs = [1, 2].map(|threads| {
-            let mut vibration = Vibration::new(&network, "bar", threads).expect("a network");
-            vibration.set(&vec![1e-6; n], &vec![0.0; n]);
-            vibration
-        });
-        let steps = 2_000_000 / network.bonds.len() + 1;
-        let pairs: Vec<[f64; 2]> = (0..41)
+        let mut contenders = contenders(&network);
+        let steps = UPDATES / bonds + 1;
+        // M/s of each contender in each turn; the first turn warms up.
+        let turns: Vec<Vec<f64>> = (0..=TURNS)
             .map(|_| {
-                [0, 1].map(|t| {
+                let speed = |c: &mut Contender| {
                     let start = Instant::now();
-                    runs[t].advance(1e-6, steps);
-                    (steps * network.bonds.len()) as f64 / start.elapsed().as_secs_f64() * 1e-6
-                })
+                    (c.run)(steps);
+                    (steps * bonds) as f64 / start.elapsed().as_secs_f64() * 1e-6
+                };
+                contenders.iter_mut().map(speed).collect()
             })
+            .skip(1)
             .collect();
-        let best = |t: usize| pairs.iter().map(|p| p[t]).fold(0.0, f64::max);
-        let mut ratios: Vec<f64> = pairs.iter().map(|p| p[1] / p[0]).collect();
-        ratios.sort_by(f64::total_cmp);
-        eprintln!(
-            "{name}: best {:.1} M/s on one thread, {:.1} M/s on two ({:.2} times); median of the pairs {:.2} times",
-            best(0),
-            best(1),
-            best(1) / best(0),
-            ratios[ratios.len() / 2]
+        println!("{:<26} {:>9} {:>9} {:>6} {:>6}  against", "", "median", "best", "ratio", "bests");
+        for (i, c) in contenders.iter().enumerate() {
+            let of = |i: usize| turns.iter().map(move |t| t[i]);
+            let best = |i: usize| of(i).fold(0.0, f64::max);
+            let ratio = median(turns.iter().map(|t| t[i] / t[c.against]).collect());
+            println!(
+                "{:<26} {:>5.1} M/s {:>5.1} M/s {ratio:>6.2} {:>6.2}  {}",
+                c.name,
+                median(of(i).collect()),
+                best(i),
+                best(i) / best(c.against),
+                contenders[c.against].name
+            );
+        }
+        let share = |threads: usize| {
+            median(turns.iter().map(|t| t[threads - 1]).collect()) * 1e6 * bytes / stream[threads - 1]
+        };
+        println!(
+            "share of the stream bandwidth: {:.0} % on one thread, {:.0} % on two; of the arithmetic on one: {:.0} %",
+            100.0 * share(1),
+            100.0 * share(2),
+            100.0 * median(turns.iter().map(|t| t[0]).collect()) * 1e6 * flops_per_bond / flops
         );
     }
 }
-
-/// Forces alone, small against finite rotations on the same network and one thread: finite ones may cost three times as much.
-fn finite_rotations(c: &mut Criterion) {
-    let mut group = c.benchmark_group("forces");
-    group.sample_size(20);
-    let network = network(13);
-    let n = 6 * network.particles.len();
-    let u: Vec<f64> = (0..n).map(|i| 1e-4 * (0.1 * i as f64).sin()).collect();
-    let mut f = vec![0.0; n];
-    group.throughput(Throughput::Elements(network.bonds.len() as u64));
-    let small = Kernel::new(&network, "bar").expect("a network");
-    group.bench_function("small", |b| b.iter(|| small.add_internal(black_box(&u), &mut f)));
-    let mut finite = Corotational::new(&network, "bar").expect("a network");
-    group.bench_function("finite", |b| {
-        b.iter(|| {
-            // Turning the particles is part of the price.
-            finite.turn(&u, 1e-3);
-            finite.add_internal(black_box(&u), &mut f);
-        });
-    });
-    group.finish();
-}
-
-criterion_group!(benches, bond_updates, threads_in_pairs, finite_rotations);
-criterion_main!(benches);

@@ -1,6 +1,7 @@
 //! One file per verb.
 
 mod check;
+mod export;
 mod list;
 mod report;
 mod run;
@@ -8,6 +9,7 @@ mod show;
 mod validate;
 
 pub use check::check;
+pub use export::export;
 pub use list::list;
 pub use report::report;
 pub use run::run;

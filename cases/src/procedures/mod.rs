@@ -2,11 +2,31 @@
 //!
 //! A new procedure is one file and one line of the registry.
 
+mod bar_impact;
+mod bar_sudden_load;
+pub(crate) mod bond_for_bond;
+mod bond_for_bond_dynamic;
+mod bond_for_bond_networks;
+mod bond_for_bond_static;
 mod bond_matrix;
 mod calculix;
+mod cantilever_eigenfrequencies;
+mod compared;
+mod elastic_bar;
+mod elastica;
 mod homogenisation;
+mod interface_reflection;
 mod lattice_constants;
+mod long_run;
 mod manufactured;
+mod rigid_rotation;
+mod roll_up;
+mod scattering;
+mod slender;
+mod specimen;
+mod straight;
+mod subcycling;
+mod time_step_orders;
 
 use crate::error::{Error, Fault, Result};
 use crate::file::SceneFile;
@@ -21,11 +41,23 @@ type Procedure = fn(&Setting, &mut CaseResult) -> Result<()>;
 
 /// Names and procedures that need no bodies.
 const REGISTRY: &[(&str, Procedure)] = &[
+    ("bar-impact", bar_impact::run),
+    ("bar-sudden-load", bar_sudden_load::run),
+    (bond_for_bond::DYNAMIC, bond_for_bond_dynamic::run),
+    (bond_for_bond::STATIC, bond_for_bond_static::run),
     ("bond-matrix", bond_matrix::run),
     ("calculix", calculix::run),
+    ("cantilever-eigenfrequencies", cantilever_eigenfrequencies::run),
+    ("elastica", elastica::run),
     ("homogenisation", homogenisation::run),
+    ("interface-reflection", interface_reflection::run),
     ("lattice-constants", lattice_constants::run),
+    ("long-run", long_run::run),
     ("manufactured", manufactured::run),
+    ("rigid-rotation", rigid_rotation::run),
+    ("roll-up", roll_up::run),
+    ("subcycling", subcycling::run),
+    ("time-step-orders", time_step_orders::run),
 ];
 
 /// Names a scene may give as its procedure.

@@ -8,6 +8,7 @@ use super::study::{Claim, FamilyDeclaration, Levels, Seeds};
 use crate::error::Fault;
 use crate::expression::Values;
 use crate::overrides::label;
+use crate::result::ReferenceKind;
 use serde_json::Value;
 
 /// Checks quantities and studies.
@@ -97,8 +98,9 @@ fn check_quantity(scene: &Scene, name: &str, quantity: &Quantity, values: &Value
     variants(scene, &quantity.variants, &format!("{key}.variants"))?;
     check_norm(scene, quantity, &key)?;
     let curve = quantity.norm.is_some();
-    let given = quantity.reference.as_ref().is_some_and(|r| r.value.is_some());
-    if scene.reference.is_none() && (curve || (quantity.reference.is_some() && !given)) {
+    let given = quantity.reference.as_ref().is_some_and(|r| r.value.is_some() || r.variants.is_some());
+    check_own_run(scene, quantity, &format!("{key}.reference"))?;
+    if scene.reference.is_none() && !given && (curve || quantity.reference.is_some()) {
         let mend = "add a [reference] model, or give reference.value";
         return Err(Fault::new(key, "there is nothing to compare it with", mend));
     }
@@ -111,6 +113,19 @@ fn check_quantity(scene: &Scene, name: &str, quantity: &Quantity, values: &Value
         return Err(Fault::new(format!("{key}.extrapolated"), "no convergence study refines it", mend));
     }
     quantity.accept.as_ref().map_or(Ok(()), |accept| check_accept(accept, quantity, values, &key))
+}
+
+/// A value that Seam computed is called so, and given once.
+fn check_own_run(scene: &Scene, quantity: &Quantity, key: &str) -> Checked {
+    let Some(reference) = &quantity.reference else { return Ok(()) };
+    if reference.variants.is_some() != (reference.kind == ReferenceKind::OwnRun) {
+        let mend = "give `variants` with the kind own-run, and only with it";
+        return Err(Fault::new(format!("{key}.kind"), "the kind does not fit where the value is from", mend));
+    }
+    if reference.variants.is_some() && reference.value.is_some() {
+        return Err(Fault::new(format!("{key}.value"), "there are two references", "keep one of them"));
+    }
+    reference.variants.as_ref().map_or(Ok(()), |names| variants(scene, names, &format!("{key}.variants")))
 }
 
 fn check_accept(accept: &Accept, quantity: &Quantity, values: &Values, key: &str) -> Checked {

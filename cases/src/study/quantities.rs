@@ -3,29 +3,42 @@
 use super::Study;
 use super::convergence::Refined;
 use super::evaluate::{self, Solved, distance};
+use super::reference::Reference;
 use crate::error::Result;
+use crate::file::SceneFile;
 use crate::result::{Observation, ReferenceKind};
 use crate::scene::number::Number;
 use crate::scene::quantity::{Accept, Quantity};
 use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
+use std::sync::Arc;
 
-/// All quantities of the scene.
+/// All quantities of the scene; those of the same variants share one run.
 pub fn all(study: &Study, solved: &Solved, refined: &BTreeMap<String, Refined>) -> Result<Vec<Observation>> {
+    let mut runs: BTreeMap<&[String], (SceneFile, Solved)> = BTreeMap::new();
     let mut all = Vec::new();
     for (name, quantity) in &study.file.scene.quantities {
         let refined = refined.get(name);
-        all.push(if quantity.variants.is_empty() {
-            one(study, name, quantity, solved, refined)?
-        } else {
-            let file = study.file.with(&study.variants(&quantity.variants))?;
-            let solved = evaluate::solve(&file, study.tally)?;
-            one(&Study { file: &file, ..*study }, name, quantity, &solved, refined)?
-        });
+        if quantity.variants.is_empty() {
+            all.push(one(study, study, name, quantity, solved, refined)?);
+            continue;
+        }
+        let (file, solved) = match runs.entry(&quantity.variants) {
+            Entry::Occupied(run) => run.into_mut(),
+            Entry::Vacant(place) => {
+                let file = study.file.with(&study.variants(&quantity.variants))?;
+                let solved = evaluate::solve(&file, study.tally)?;
+                place.insert((file, solved))
+            }
+        };
+        all.push(one(study, &Study { file, ..*study }, name, quantity, solved, refined)?);
     }
     Ok(all)
 }
 
+/// A quantity of a variant of the scene `root`.
 fn one(
+    root: &Study,
     study: &Study,
     name: &str,
     quantity: &Quantity,
@@ -42,12 +55,12 @@ fn one(
     };
     match (quantity.norm, refined) {
         (Some(norm), _) => {
-            let reference = study.library.of(study.file, study.tally)?;
+            let reference = reference_of(root, study, quantity)?;
             let what = (quantity.probe.as_str(), norm, quantity.zone);
             let distance = distance(study.file, &solved.readings, &reference, what);
             observation.value = distance
                 .ok_or_else(|| study.error(format!("quantity '{name}': its zone holds no station")))?;
-            observation.kind = ReferenceKind::OwnFem;
+            observation.kind = quantity.reference.as_ref().map_or(ReferenceKind::OwnFem, |r| r.kind);
             observation.source = reference.about.clone();
             observation.u_ref = reference.curves[&quantity.probe].1;
         }
@@ -61,7 +74,9 @@ fn one(
                 value.ok_or_else(|| study.error(format!("quantity '{name}' has no value")))?;
         }
     }
-    compare(study, name, quantity, &mut observation)?;
+    if quantity.norm.is_none() || !is_own_run(quantity) {
+        compare(root, study, name, quantity, &mut observation)?;
+    }
     if let Some(accept) = &quantity.accept {
         observation.accepted = Some(accepted(study, name, accept, observation.reference)?);
         observation.why = accept.why.clone();
@@ -69,7 +84,27 @@ fn one(
     Ok(observation)
 }
 
-fn compare(study: &Study, name: &str, quantity: &Quantity, observation: &mut Observation) -> Result<()> {
+fn is_own_run(quantity: &Quantity) -> bool {
+    quantity.reference.as_ref().is_some_and(|r| r.variants.is_some())
+}
+
+/// The scene's `[reference]` model, or the run that the quantity names.
+fn reference_of(root: &Study, study: &Study, quantity: &Quantity) -> Result<Arc<Reference>> {
+    match quantity.reference.as_ref().and_then(|r| Some((r.variants.as_ref()?, &r.source))) {
+        Some((names, source)) => {
+            root.library.own_run(&root.file.with(&root.variants(names))?, source, root.tally)
+        }
+        None => study.library.of(study.file, study.tally),
+    }
+}
+
+fn compare(
+    root: &Study,
+    study: &Study,
+    name: &str,
+    quantity: &Quantity,
+    observation: &mut Observation,
+) -> Result<()> {
     let Some(declared) = &quantity.reference else { return Ok(()) };
     observation.kind = declared.kind;
     observation.source = declared.source.clone();
@@ -78,7 +113,7 @@ fn compare(study: &Study, name: &str, quantity: &Quantity, observation: &mut Obs
             observation.reference = Some(number(study, value, &format!("quantities.{name}.reference.value"))?)
         }
         None => {
-            let reference = study.library.of(study.file, study.tally)?;
+            let reference = reference_of(root, study, quantity)?;
             if let Some(estimate) = reference.estimate(quantity) {
                 observation.reference = Some(estimate.value);
                 observation.u_ref = estimate.u;

@@ -59,13 +59,34 @@ impl Library {
         // The level's key is set in every run: its value in the scene must not tell scenes apart.
         let finest = declared.levels.values.last().map(|value| at_level(&declared.levels, value));
         let key = digest::digest(&base.with(finest.as_slice())?);
+        let found = self.once(key, || compute(&base, declared, tally));
+        found.map_err(|message| fail(format!("its reference model failed: {message}")))
+    }
+
+    /// Another run of the scene itself, compared as it is.
+    ///
+    /// # Errors
+    /// The run fails.
+    pub fn own_run(&self, file: &SceneFile, source: &str, tally: &Tally) -> Result<Arc<Reference>> {
+        let found = self.once(format!("run {}", file.hash()), || {
+            Ok(as_it_is(source, &evaluate::solve(file, tally)?.readings))
+        });
+        found.map_err(|message| Error::Study {
+            case: file.scene.id.clone(),
+            message: format!("the run it is compared with failed: {message}"),
+        })
+    }
+
+    fn once(
+        &self,
+        key: String,
+        compute: impl FnOnce() -> Result<Reference>,
+    ) -> std::result::Result<Arc<Reference>, String> {
         let slot = match self.known.lock() {
             Ok(mut known) => Arc::clone(known.entry(key).or_default()),
             Err(_) => Slot::default(),
         };
-        let found =
-            slot.get_or_init(|| compute(&base, declared, tally).map(Arc::new).map_err(|e| e.to_string()));
-        found.clone().map_err(|message| fail(format!("its reference model failed: {message}")))
+        slot.get_or_init(|| compute().map(Arc::new).map_err(|e| e.to_string())).clone()
     }
 }
 
@@ -78,7 +99,7 @@ fn compute(base: &SceneFile, declared: &ReferenceModel, tally: &Tally) -> Result
         sizes.push(resolution(value));
     }
     if let [only] = readings.as_slice() {
-        return Ok(as_it_is(declared, only));
+        return Ok(as_it_is(&declared.about, only));
     }
     let sizes: Option<Vec<f64>> = sizes.into_iter().collect();
     let (Some(sizes), [.., _, _, _]) = (sizes, readings.as_slice()) else {
@@ -114,8 +135,8 @@ fn compute(base: &SceneFile, declared: &ReferenceModel, tally: &Tally) -> Result
 }
 
 /// One level: the same mesh, compared as it is.
-fn as_it_is(declared: &ReferenceModel, readings: &Readings) -> Reference {
-    let mut reference = Reference { about: declared.about.clone(), ..Reference::default() };
+fn as_it_is(about: &str, readings: &Readings) -> Reference {
+    let mut reference = Reference { about: about.to_owned(), ..Reference::default() };
     for (probe, reading) in readings.iter() {
         match reading {
             Reading::Scalar(value) => {

@@ -110,6 +110,7 @@ pub(crate) fn kind_name(q: &QuantityResult) -> &'static str {
         Kind::Lammps => "lammps",
         Kind::Experiment => "experiment",
         Kind::Prototype => "prototype",
+        Kind::OwnRun => "own-run",
         Kind::Regression => "regression",
     }
 }

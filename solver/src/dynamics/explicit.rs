@@ -55,6 +55,9 @@ pub struct Explicit {
     critical: CriticalStep,
     loaded: Vec<(usize, f64)>,
     held: Vec<(usize, f64)>,
+    /// Unknowns with a share in a tie, ascending.
+    tied: Vec<usize>,
+    kick: Kick,
     pub(super) work: Work,
 }
 
@@ -75,7 +78,8 @@ pub(super) struct Motion {
     pub initial: f64,
 }
 
-/// What the forces at `t_n` do to the velocities.
+/// What the forces at `t_n` do to the velocities. Made once and filled in every step.
+#[derive(Default)]
 struct Kick {
     /// `v₊`.
     v: Vec<f64>,
@@ -83,8 +87,10 @@ struct Kick {
     internal: Vec<f64>,
     /// Forces of the ties.
     ties: Vec<f64>,
-    /// Forces of the supports.
+    /// Force of each support.
     supports: Vec<f64>,
+    /// Multipliers of the ties, as impulses, and room for what they are solved from.
+    multipliers: [Vec<f64>; 2],
     /// Power of each kind of force on `v₋` and on `v₊`, in W.
     power: [WorkDone; 2],
 }
@@ -134,7 +140,13 @@ impl Explicit {
         let nonzero = |(i, f): (usize, &f64)| (*f != 0.0).then_some((i, *f));
         let loaded = system.load.iter().enumerate().filter_map(nonzero).collect();
         let held = system.prescribed.iter().enumerate().filter_map(|(i, p)| Some((i, (*p)?))).collect();
-        Ok(Explicit { options, motion, system, forces, interface, critical, loaded, held, work })
+        let mut tied: Vec<usize> =
+            system.rows.iter().flat_map(|row| row.terms.iter().map(|term| term.0)).collect();
+        tied.sort_unstable();
+        tied.dedup();
+        let [v, internal, ties] = [(); 3].map(|()| vec![0.0; n]);
+        let kick = Kick { v, internal, ties, ..Kick::default() };
+        Ok(Explicit { options, motion, system, forces, interface, critical, loaded, held, tied, kick, work })
     }
 
     fn refuse_turned_start(&self, model: &Model) -> Result<()> {
@@ -155,10 +167,9 @@ impl Explicit {
 
     /// Half a step back: `v₋ = 2 v₀ − v₊` with `v₊ = v₀ + (Δt/2) a₀`, so that `v₀` is met at second order.
     fn start(&mut self) -> Result<()> {
-        let v0 = self.motion.v.clone();
         // With v₋ = v₀ a kick of half a step gives v₀ + (Δt/2) a₀, on the ties and supports.
-        let ahead = self.kick(0.5 * self.options.step_s)?;
-        self.motion.v = v0.iter().zip(&ahead.v).map(|(v0, v)| 2.0 * v0 - v).collect();
+        self.kick(0.5 * self.options.step_s)?;
+        self.motion.v.iter_mut().zip(&self.kick.v).for_each(|(v0, v)| *v0 = 2.0 * *v0 - v);
         let start = self.observe()?;
         // Work is counted from t₀, half a step after v₋.
         let Ledger { work, kinetic, strain, .. } = start.ledger;
@@ -222,12 +233,13 @@ impl Explicit {
 
     fn step(&mut self) -> Result<()> {
         let dt = self.options.step_s;
-        let kick = self.kick(dt)?;
-        let [before, after] = kick.power;
+        self.kick(dt)?;
+        let [before, after] = self.kick.power;
         self.motion.done += 0.5 * dt * (before + after);
-        self.motion.u.iter_mut().zip(&kick.v).for_each(|(u, v)| *u += dt * v);
-        self.forces.turn(&kick.v, dt);
-        self.motion.v = kick.v;
+        std::mem::swap(&mut self.motion.v, &mut self.kick.v);
+        let Motion { u, v, .. } = &mut self.motion;
+        u.iter_mut().zip(&*v).for_each(|(u, v)| *u += dt * v);
+        self.forces.turn(v, dt);
         self.motion.step += 1;
         self.work.steps += 1;
         Ok(())
@@ -239,16 +251,18 @@ impl Explicit {
     /// As [`Explicit::advance`].
     pub fn observe(&mut self) -> Result<Observation> {
         let dt = self.options.step_s;
-        let kick = self.kick(dt)?;
-        let Motion { u, v: v_before, .. } = &self.motion;
+        self.kick(dt)?;
+        let (Motion { u, v: v_before, .. }, kick) = (&self.motion, &self.kick);
         let pairs = || v_before.iter().zip(&kick.v);
         let kinetic = 0.5 * pairs().zip(&self.system.mass).map(|((a, b), m)| m * a * b).sum::<f64>();
         let strain = self.forces.energy(u, &kick.internal);
         let work = self.motion.done + 0.5 * dt * kick.power[0];
+        let mut reactions = kick.ties.clone();
+        self.held.iter().zip(&kick.supports).for_each(|(&(i, _), s)| reactions[i] += s);
         Ok(Observation {
             ledger: Ledger { kinetic, strain, work, initial: self.motion.initial },
             gap: self.system.gap(u),
-            reactions: kick.ties.iter().zip(&kick.supports).map(|(t, s)| t + s).collect(),
+            reactions,
             state: State {
                 time: self.time(),
                 u: u.clone(),
@@ -259,46 +273,50 @@ impl Explicit {
     }
 
     /// `v₊` from `v₋`, `dt` apart, under the forces at `t_n`.
-    fn kick(&mut self, dt: f64) -> Result<Kick> {
-        let (system, before, u) = (&self.system, &self.motion.v, &self.motion.u);
+    fn kick(&mut self, dt: f64) -> Result<()> {
         let (now, factor) = (self.time(), self.options.loads.at(self.time()));
-        let mut internal = vec![0.0; u.len()];
-        self.forces.add(u, &mut internal, &mut self.work);
-        let mut force: Vec<f64> = internal.iter().map(|f| -f).collect();
-        self.loaded.iter().for_each(|&(i, f)| force[i] += factor * f);
+        let (system, before, u) = (&self.system, &self.motion.v, &self.motion.u);
+        let Kick { v, internal, ties, supports, multipliers, power } = &mut self.kick;
+        internal.fill(0.0);
+        self.forces.add(u, internal, &mut self.work);
         // A viscous force on v_n = ½(v₋ + v₊) divides by 1 + αΔt/2.
         let viscous = 0.5 * dt * self.options.damping.rate();
-        let mut v: Vec<f64> = (0..u.len())
-            .map(|i| ((1.0 - viscous) * before[i] + dt * force[i] / system.mass[i]) / (1.0 + viscous))
-            .collect();
+        let (keep, push) = ((1.0 - viscous) / (1.0 + viscous), dt / (1.0 + viscous));
+        let inverse_mass = self.interface.inverse_mass();
+        let old = before.iter().zip(inverse_mass.iter().zip(&*internal));
+        v.iter_mut().zip(old).for_each(|(v, (before, (w, f)))| *v = keep * before - push * w * f);
+        self.loaded.iter().for_each(|&(i, f)| v[i] += push * inverse_mass[i] * factor * f);
         let goal = self.options.supports.at(now + self.options.step_s);
         self.held.iter().for_each(|&(i, value)| v[i] = (goal * value - u[i]) / self.options.step_s);
 
-        let mut ties = vec![0.0; u.len()];
-        let mut multipliers = self.interface.project(system, &mut v, &mut ties, &mut self.work)?;
-        let drag = self.options.damping.drag(dt, before, &v, system);
+        self.tied.iter().for_each(|&i| ties[i] = 0.0);
+        let [lambda, room] = multipliers;
+        lambda.clear();
+        lambda.resize(system.rows.len(), 0.0);
+        self.interface.project_adding(system, v, ties, [lambda, room], &mut self.work)?;
+        let drag = self.options.damping.drag(dt, before, v, system);
         if let Some(drag) = &drag {
             (0..v.len()).for_each(|i| v[i] += dt * drag[i] / system.mass[i]);
-            let more = self.interface.project(system, &mut v, &mut ties, &mut self.work)?;
-            multipliers.iter_mut().zip(more).for_each(|(l, more)| *l += more);
+            self.interface.project_adding(system, v, ties, [lambda, room], &mut self.work)?;
         }
         let per_impulse = (1.0 + viscous) / dt;
-        ties.iter_mut().for_each(|f| *f *= per_impulse);
+        self.tied.iter().for_each(|&i| ties[i] *= per_impulse);
 
-        let mut supports = vec![0.0; u.len()];
-        for &(i, _) in &self.held {
-            supports[i] = system.mass[i] * (v[i] - before[i]) / dt - force[i] - ties[i];
-        }
-        let power = [before, &v].map(|w| {
+        supports.clear();
+        supports.extend(self.held.iter().map(|&(i, _)| {
+            let force = factor * system.load[i] - internal[i];
+            system.mass[i] * (v[i] - before[i]) / dt - force - ties[i]
+        }));
+        *power = [before, &*v].map(|w| {
             let loads: f64 = self.loaded.iter().map(|&(i, f)| factor * f * w[i]).sum();
-            let moving: f64 = self.held.iter().map(|&(i, _)| supports[i] * w[i]).sum();
-            let rows = system.rows.iter().zip(&multipliers);
+            let moving: f64 = self.held.iter().zip(&*supports).map(|(&(i, _), s)| s * w[i]).sum();
+            let rows = system.rows.iter().zip(&*lambda);
             WorkDone {
                 external: loads + moving,
-                damping: self.options.damping.power(drag.as_deref(), before, &v, w, system),
+                damping: self.options.damping.power(drag.as_deref(), before, v, w, system),
                 interface: -per_impulse * rows.map(|(row, l)| l * row_product(&row.terms, w)).sum::<f64>(),
             }
         });
-        Ok(Kick { v, internal, ties, supports, power })
+        Ok(())
     }
 }

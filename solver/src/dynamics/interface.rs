@@ -57,6 +57,11 @@ impl Interface {
         Ok(Interface { inverse_mass, scale, factor: Some(factor) })
     }
 
+    /// `1/m` of each unknown, zero for prescribed ones; in 1/kg and 1/(kg m²).
+    pub(super) fn inverse_mass(&self) -> &[f64] {
+        &self.inverse_mass
+    }
+
     /// Makes `C v = 0`; adds the impulses `−Cᵀ Λ` that do it (N s, N m s) to `impulse`, and returns Λ.
     ///
     /// # Errors
@@ -68,9 +73,22 @@ impl Interface {
         impulse: &mut [f64],
         work: &mut Work,
     ) -> Result<Vec<f64>> {
+        let mut multipliers = vec![0.0; system.rows.len()];
+        self.project_adding(system, v, impulse, [&mut multipliers, &mut Vec::new()], work)?;
+        Ok(multipliers)
+    }
+
+    /// The same without allocation: adds Λ to the first vector; the second one is for the right-hand side.
+    pub(super) fn project_adding(
+        &self,
+        system: &System,
+        v: &mut [f64],
+        impulse: &mut [f64],
+        [multipliers, scaled]: [&mut Vec<f64>; 2],
+        work: &mut Work,
+    ) -> Result<()> {
         let rows = &system.rows;
-        let mut multipliers = vec![0.0; rows.len()];
-        let Some(factor) = &self.factor else { return Ok(multipliers) };
+        let Some(factor) = &self.factor else { return Ok(()) };
         let size = |v: &[f64]| {
             let of_row = |terms: &[(usize, f64)]| terms.iter().map(|&(i, c)| (c * v[i]).abs()).sum::<f64>();
             rows.iter().map(|row| of_row(&row.terms)).fold(0.0, f64::max)
@@ -78,12 +96,12 @@ impl Interface {
         let bound = LARGEST_MISMATCH * size(v);
         let mut mismatch = 0.0;
         for _ in 0..MOST_SOLVES {
-            let mut scaled: Vec<f64> =
-                rows.iter().zip(&self.scale).map(|(row, s)| s * row_product(&row.terms, v)).collect();
-            factor.solve_in_place(&mut scaled);
+            scaled.clear();
+            scaled.extend(rows.iter().zip(&self.scale).map(|(row, s)| s * row_product(&row.terms, v)));
+            factor.solve_in_place(scaled);
             work.solves += 1;
             for ((row, s), (z, multiplier)) in
-                rows.iter().zip(&self.scale).zip(scaled.iter().zip(&mut multipliers))
+                rows.iter().zip(&self.scale).zip(scaled.iter().zip(multipliers.iter_mut()))
             {
                 let change = s * z;
                 *multiplier += change;
@@ -94,7 +112,7 @@ impl Interface {
             }
             mismatch = rows.iter().map(|row| row_product(&row.terms, v).abs()).fold(0.0, f64::max);
             if mismatch <= bound {
-                return Ok(multipliers);
+                return Ok(());
             }
             if !mismatch.is_finite() {
                 break;

@@ -72,7 +72,7 @@ pub fn solve(network: &mut Corotational, held: &[usize], load: &[f64], steps: us
 }
 
 fn mean_length(network: &Corotational) -> f64 {
-    network.bonds.iter().map(|b| b.length()).sum::<f64>() / network.bonds.len().max(1) as f64
+    network.bonds().map(|(_, b)| b.length()).sum::<f64>() / network.bond_count().max(1) as f64
 }
 
 fn forces(network: &Corotational, u: &[f64]) -> Vec<f64> {

@@ -2,7 +2,7 @@
 
 /// Below these values of `1 − cos α` (α ≈ 0.045 and 0.35) so many terms of the series reach rounding: short for the usual
 /// small strain, and no arc cosine until it is cheap by comparison.
-const NEAR: f64 = 1e-3;
+pub(super) const NEAR: f64 = 1e-3;
 const NEAR_TERMS: usize = 6;
 const FAR: f64 = 0.06;
 const FAR_TERMS: usize = 13;
@@ -19,11 +19,10 @@ const COEFFICIENT: [f64; FAR_TERMS] = {
 };
 
 /// `ρ` and `dρ/dc` at `c = cos α`, `|α| < π`.
-#[inline(always)]
 pub(super) fn swing(c: f64) -> (f64, f64) {
     let y = 1.0 - c;
     if y < NEAR {
-        series::<NEAR_TERMS>(y)
+        near(y)
     } else if y < FAR {
         series::<FAR_TERMS>(y)
     } else {
@@ -33,24 +32,27 @@ pub(super) fn swing(c: f64) -> (f64, f64) {
     }
 }
 
+/// The same for `y = 1 − cos α` below [`NEAR`], without a branch.
+#[inline(always)]
+pub(super) fn near(y: f64) -> (f64, f64) {
+    series::<NEAR_TERMS>(y)
+}
+
 /// Even and odd powers apart: two short chains instead of a long one, since a bond waits for this.
 #[inline(always)]
 fn series<const TERMS: usize>(y: f64) -> (f64, f64) {
     let y2 = y * y;
-    let [mut even, mut odd, mut slope_even, mut slope_odd] = [0.0; 4];
+    // By the parity of k: Σ a_k y^k and Σ k a_k y^(k−1), over y where k is odd and even respectively.
+    let (mut rho, mut slope) = ([0.0; 2], [0.0; 2]);
     for k in (0..TERMS).rev() {
-        let (a, slope) = (COEFFICIENT[k], k as f64 * COEFFICIENT[k]);
-        if k.is_multiple_of(2) {
-            even = even * y2 + a;
-            if k > 0 {
-                slope_even = slope_even * y2 + slope;
-            }
-        } else {
-            odd = odd * y2 + a;
-            slope_odd = slope_odd * y2 + slope;
+        let (a, p) = (COEFFICIENT[k], k % 2);
+        // The first of each chain is its coefficient: the compiler may not drop a product with zero.
+        rho[p] = if k + 2 < TERMS { rho[p] * y2 + a } else { a };
+        if k > 0 {
+            slope[p] = if k + 2 < TERMS { slope[p] * y2 + k as f64 * a } else { k as f64 * a };
         }
     }
-    (even + odd * y, -(slope_odd + slope_even * y))
+    (rho[0] + rho[1] * y, -(slope[1] + slope[0] * y))
 }
 
 #[cfg(test)]

