@@ -280,6 +280,14 @@ fn studies_work_on_histories() {
     assert_eq!(budget.total, value(&result, "mean"));
     let sum: f64 = budget.parts.iter().map(|p| p.value).sum();
     assert!((sum - budget.total).abs() < 1e-15 && budget.parts[1].value != 0.0);
+    // Coupled from the start, the lattice's own error is read over the same times: from the switch of the scene on.
+    let from_the_start = run(&["switches.middle.at_load=0"]);
+    let (own_history, exact) = (own(&from_the_start, "tip"), &plot(&from_the_start, "tip").series[1]);
+    let after = (0..exact.x.len()).filter(|&i| exact.x[i] > result.switches[0].time_s);
+    let (miss, whole) = after.fold((0.0, 0.0), |(miss, whole), i| {
+        (miss + (own_history.y[i] - exact.y[i]) * exact.y[i].signum(), whole + exact.y[i].abs())
+    });
+    assert!((budget.parts[0].value - miss / whole).abs() < 1e-12);
     let point = &result.costs[0].settings[0].points[0];
     assert_eq!((point.error, point.particles), (Some(value(&result, "tip")), result.switches[0].particles));
     // The value at the end over its reference is the distance at the end.
@@ -312,6 +320,8 @@ const FAMILY: &str = r#"
 [variants.random]
 "switches.middle.de.arrangement" = "random"
 "switches.middle.de.rows" = 6
+"switches.middle.de.skin" = "weighted"
+"switches.middle.de.packing" = { seed = 7 }
 
 [claims.small]
 statement = "The deflection is right"
@@ -340,6 +350,11 @@ fn a_family_packs_the_particles_of_a_switch_with_its_seeds() {
     assert_eq!(
         seeds,
         [None, Some(1), Some(2)],
+        "{:?}",
+        members.iter().map(|m| &m.failed).collect::<Vec<_>>()
+    );
+    assert!(
+        members.iter().all(|m| m.failed.is_none()),
         "{:?}",
         members.iter().map(|m| &m.failed).collect::<Vec<_>>()
     );

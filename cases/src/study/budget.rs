@@ -1,7 +1,7 @@
 //! Error budgets: the signed error of a quantity as a sum of differences between runs.
 
 use super::Study;
-use super::evaluate::{self, distance};
+use super::evaluate::{self, Readings, distance};
 use crate::error::Result;
 use crate::file::SceneFile;
 use crate::overrides::Override;
@@ -18,10 +18,13 @@ pub fn all(study: &Study) -> Result<Vec<Budget>> {
 
 fn one(study: &Study, name: &str, declared: &BudgetDeclaration) -> Result<Budget> {
     let quantity = &study.file.scene.quantities[&declared.quantity];
-    let total = error(study, quantity, &study.file.with(&study.variants(&declared.of))?)?;
+    let whole = study.file.with(&study.variants(&declared.of))?;
+    let readings = evaluate::solve(&whole, study.tally)?.readings;
+    let first_switch = readings.first_switch();
+    let total = error(study, quantity, &whole, &readings)?;
     let mut parts = Vec::new();
     for part in &declared.parts {
-        parts.push(one_part(study, quantity, part)?);
+        parts.push(one_part(study, quantity, part, first_switch)?);
     }
     let explained: f64 = parts.iter().map(|part| part.value).sum();
     parts.push(BudgetPart {
@@ -39,12 +42,19 @@ fn one(study: &Study, name: &str, declared: &BudgetDeclaration) -> Result<Budget
     })
 }
 
-fn one_part(study: &Study, quantity: &Quantity, part: &Part) -> Result<BudgetPart> {
+fn one_part(
+    study: &Study,
+    quantity: &Quantity,
+    part: &Part,
+    first_switch: Option<f64>,
+) -> Result<BudgetPart> {
     let difference = |seed: Option<Override>| -> Result<f64> {
         let run = |names: &[String]| {
             let mut changes = study.variants(names);
             changes.extend(seed.clone());
-            error(study, quantity, &study.file.with(&changes)?)
+            let file = study.file.with(&changes)?;
+            let readings = evaluate::solve(&file, study.tally)?.readings.counted_from(first_switch);
+            error(study, quantity, &file, &readings)
         };
         // The converged reference has no error.
         let from = if part.from_reference { 0.0 } else { run(&part.from)? };
@@ -76,17 +86,14 @@ fn of_tier<'a>(study: &Study, seeds: &'a Seeds) -> &'a [u64] {
 
 /// Signed error of a quantity, as a fraction of its reference. A scene's reference is that of the
 /// undivided scene, so that all runs are measured against one value.
-fn error(study: &Study, quantity: &Quantity, file: &SceneFile) -> Result<f64> {
+fn error(study: &Study, quantity: &Quantity, file: &SceneFile, readings: &Readings) -> Result<f64> {
     let reference = study.library.of(study.file, study.tally)?;
-    let readings = evaluate::solve(file, study.tally)?.readings;
     let found = match quantity.norm {
         None => {
             let exact = reference.estimate(quantity).map(|estimate| estimate.value);
             readings.value(quantity).zip(exact).map(|(value, exact)| (value - exact) / exact)
         }
-        Some(_) => {
-            distance(file, &readings, &reference, (quantity.probe.as_str(), Norm::Mean, quantity.zone))
-        }
+        Some(_) => distance(file, readings, &reference, (quantity.probe.as_str(), Norm::Mean, quantity.zone)),
     };
     found
         .ok_or_else(|| study.error(format!("the budget of '{}' has nothing to compare with", quantity.label)))

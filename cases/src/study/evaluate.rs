@@ -59,6 +59,16 @@ pub struct Readings {
 }
 
 impl Readings {
+    /// Time of the first switch, in s.
+    pub fn first_switch(&self) -> Option<f64> {
+        self.first_switch
+    }
+
+    /// The same with "after the switch" counted from another run's first switch, so that both are read over one zone.
+    pub fn counted_from(self, first_switch: Option<f64>) -> Self {
+        Self { first_switch, ..self }
+    }
+
     /// What a quantity takes from its probe: a scalar, or one value of a history.
     pub fn value(&self, quantity: &Quantity) -> Option<f64> {
         match self.by_probe.get(&quantity.probe)? {
