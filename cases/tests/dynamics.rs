@@ -307,3 +307,50 @@ fn a_criterion_switches_again() {
     let particles: usize = result.switches.iter().map(|s| s.particles).sum();
     assert_eq!(*own(&result, "particles").y.last().unwrap(), particles as f64);
 }
+
+const FAMILY: &str = r#"
+[variants.random]
+"switches.middle.de.arrangement" = "random"
+"switches.middle.de.rows" = 6
+
+[claims.small]
+statement = "The deflection is right"
+source = "this test"
+bound = 0.1
+family = "packings"
+main_reading = "largest"
+readings = { largest = { about = "largest over time", probe = "tip", zone = "after-switch", norm = "largest" }, end = { about = "at the end", probe = "tip", zone = "end", norm = "pointwise" } }
+
+[variants.lattice]
+
+[families.packings]
+axes = { network = { variants = ["lattice", "random"] } }
+paper_like = { network = "random" }
+seeds = { body = "middle", full = [1, 2], quick = [1, 2] }
+full = [{ network = ["lattice", "random"] }]
+quick = [{ network = ["lattice", "random"] }]
+"#;
+
+#[test]
+fn a_family_packs_the_particles_of_a_switch_with_its_seeds() {
+    let file = read(&format!("{BEAM}{FAMILY}"), &["budgets={}", "costs={}"]).unwrap();
+    let result = seam_cases::procedures::run(&file, Tier::Quick).unwrap().result;
+    let members = &result.families[0].members;
+    let seeds: Vec<Option<u64>> = members.iter().map(|m| m.seed).collect();
+    assert_eq!(
+        seeds,
+        [None, Some(1), Some(2)],
+        "{:?}",
+        members.iter().map(|m| &m.failed).collect::<Vec<_>>()
+    );
+    let error = |member: usize, reading: &str| members[member].errors[reading];
+    // The lattice is the scene itself; a seed changes the packing and with it the error.
+    assert_eq!(error(0, "largest"), value(&result, "tip"));
+    assert!(error(1, "largest") != error(2, "largest") && error(1, "end") > 0.0 && error(2, "end") < 0.2);
+    let nobody = read(&format!("{BEAM}{FAMILY}").replace("body = \"middle\"", "body = \"midle\""), &[]);
+    let message = nobody.unwrap_err();
+    assert!(
+        message.contains("no body or switch 'midle'; ") || message.contains("did you mean 'middle'?"),
+        "{message}"
+    );
+}

@@ -269,7 +269,10 @@ fn growing(strength_pa: f64, outputs: usize, stepping: Stepping) -> Plan<'static
     let indicator = Indicator::Stress { strength_pa: Some(strength_pa), length_m: 0.25 };
     let criterion = Criterion { indicator, trigger: 0.6, buffer_m: 0.25, memory: Memory::Irreversible };
     let every_s = period() / 4.0;
-    let grow = SwitchRule { fill: &square, ..rule(When::Criterion { criterion, every_s, most: 3 }) };
+    let grow = SwitchRule {
+        fill: &square,
+        ..rule(When::Criterion { criterion, every_s, most: 3, through: [false; 3] })
+    };
     Plan { switches: vec![grow], outputs, ..ramp(stepping) }
 }
 

@@ -109,7 +109,7 @@ fn criteria_that_cannot_choose() {
     let asking = |strength_pa: Option<f64>, every_s: f64, most: usize| {
         let indicator = Indicator::Stress { strength_pa, length_m: 0.2 };
         let criterion = Criterion { indicator, trigger: 0.5, buffer_m: 0.0, memory: Memory::Irreversible };
-        refusal(&switched(rule(When::Criterion { criterion, every_s, most })))
+        refusal(&switched(rule(When::Criterion { criterion, every_s, most, through: [false; 3] })))
     };
     assert!(asking(None, 0.1, 1).contains("set strength_Pa"));
     assert!(asking(Some(1.0), 0.0, 1).contains("asked every 0 s"));

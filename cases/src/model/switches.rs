@@ -3,7 +3,7 @@
 use super::place::part_of;
 use super::{Context, Refusal, conditions, particles};
 use crate::error::Fault;
-use crate::scene::switch::{Criterion, Switch};
+use crate::scene::switch::{Axis, Criterion, Switch};
 use seam_solver::dem::block::Block;
 use seam_solver::dem::network::Network;
 use seam_solver::error::{Error, Result};
@@ -161,5 +161,6 @@ fn by_criterion(context: &Context, criterion: &Criterion, key: &str) -> std::res
         criterion: criterion::Criterion { indicator, trigger, buffer_m, memory },
         every_s: value(&criterion.every_s, "every_s")?,
         most: criterion.most.count(context.values, 1, &format!("{key}.most"))?,
+        through: [Axis::X, Axis::Y, Axis::Z].map(|axis| criterion.through.contains(&axis)),
     })
 }

@@ -60,6 +60,9 @@ pub struct Criterion {
     /// Most switches.
     #[serde(default = "once")]
     pub most: Number,
+    /// Axes along which the region always reaches through the whole body: `["y"]` takes the whole height of a beam.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub through: Vec<Axis>,
     /// Elements are forgotten below this value, lower than the trigger; never if not given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub release: Option<Number>,
@@ -71,6 +74,18 @@ fn zero() -> Number {
 
 fn once() -> Number {
     Number::Literal(1.0)
+}
+
+/// An axis.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Axis {
+    /// Along the length.
+    X,
+    /// Across the height.
+    Y,
+    /// Through the thickness; solid only.
+    Z,
 }
 
 /// Stress over strength.

@@ -167,7 +167,7 @@ fn rule(model: &Model, plan: &Plan, index: usize) -> Result<()> {
             }
             Region::in_box(body, *block).map(|_| ())
         }
-        When::Criterion { criterion, every_s, most } => {
+        When::Criterion { criterion, every_s, most, .. } => {
             criterion.check()?;
             if !(*every_s > 0.0 && *every_s <= end_s) {
                 return refuse(format!(

@@ -80,6 +80,8 @@ pub enum When {
         every_s: f64,
         /// Most switches.
         most: usize,
+        /// Axes along which the region always reaches through the whole body, as over the section of a beam.
+        through: [bool; 3],
     },
 }
 

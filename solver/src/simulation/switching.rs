@@ -8,6 +8,7 @@ use crate::dynamics::State;
 use crate::error::{Error, Result};
 use crate::fem::continuum::Continuum;
 use crate::model::{Model, Numbering, Part};
+use crate::space::Vec3;
 use crate::transfer::criterion::Criterion;
 use crate::transfer::region::{Region, cells_in};
 use crate::transfer::report::SwitchReport;
@@ -32,6 +33,8 @@ struct Progress {
     next_s: f64,
     /// Times that it chose something.
     rounds: usize,
+    /// Box around its body at the start.
+    body: Option<Block>,
     /// Box around all that it chose.
     grown: Option<Block>,
     /// Boxes of particles that it made.
@@ -52,6 +55,7 @@ impl<'a> Rules<'a> {
                 When::Criterion { every_s, .. } => every_s,
             },
             rounds: 0,
+            body: model.parts.iter().find(|p| p.name() == rule.body).and_then(|p| bounds(p.positions())),
             grown: None,
             filled: Vec::new(),
             pieces: (0..model.parts.len()).filter(|&p| model.parts[p].name() == rule.body).collect(),
@@ -78,8 +82,8 @@ impl<'a> Rules<'a> {
                     self.progress[rule].next_s = f64::INFINITY;
                     vec![*block]
                 }
-                When::Criterion { criterion, every_s, most } => {
-                    let blocks = self.grow(rule, criterion, model, u)?;
+                When::Criterion { criterion, every_s, most, through } => {
+                    let blocks = self.grow(rule, (criterion, through), model, u)?;
                     let progress = &mut self.progress[rule];
                     progress.rounds += usize::from(!blocks.is_empty());
                     let again = ((now / every_s).floor() + 1.0) * every_s;
@@ -95,19 +99,30 @@ impl<'a> Rules<'a> {
     }
 
     /// The boxes by which the region of a criterion grows: the box around all it ever chose, less what is particles already.
-    fn grow(&mut self, rule: usize, criterion: &Criterion, model: &Model, u: &[f64]) -> Result<Vec<Block>> {
+    fn grow(
+        &mut self,
+        rule: usize,
+        (criterion, through): (&Criterion, &[bool; 3]),
+        model: &Model,
+        u: &[f64],
+    ) -> Result<Vec<Block>> {
         let numbering = Numbering::new(model);
         let mut wanted: Option<Block> = None;
         for &part in &self.progress[rule].pieces {
             let Part::Continuum(body) = &model.parts[part] else { continue };
             let first = numbering.offset(part);
             let cells = criterion.choose(body, &u[first..first + body.dof_count()], &BTreeSet::new())?;
-            if !cells.is_empty() {
-                let block = bounds(body, &cells);
+            let nodes = cells.iter().flat_map(|&c| body.mesh.cell(c)).map(|&n| &body.mesh.nodes[n]);
+            if let Some(block) = bounds(nodes) {
                 wanted = Some(wanted.map_or(block, |all| around(&all, &block)));
             }
         }
-        let Some(wanted) = wanted else { return Ok(Vec::new()) };
+        let Some(mut wanted) = wanted else { return Ok(Vec::new()) };
+        if let Some(body) = &self.progress[rule].body {
+            for i in (0..3).filter(|&i| through[i]) {
+                (wanted.min[i], wanted.max[i]) = (body.min[i], body.max[i]);
+            }
+        }
         let whole = self.progress[rule].grown.map_or(wanted, |old| around(&old, &wanted));
         self.progress[rule].grown = Some(whole);
         let body = &self.rules[rule].body;
@@ -201,11 +216,9 @@ impl<'a> Rules<'a> {
     }
 }
 
-/// Box around cells.
-fn bounds(body: &Continuum, cells: &BTreeSet<usize>) -> Block {
-    let nodes = cells.iter().flat_map(|&c| body.mesh.cell(c)).map(|&n| body.mesh.nodes[n]);
-    let points = nodes.map(|x| Block { min: x, max: x });
-    points.reduce(|a, b| around(&a, &b)).expect("a cell has nodes")
+/// Box around points; `None` without any.
+fn bounds<'p>(points: impl IntoIterator<Item = &'p Vec3>) -> Option<Block> {
+    points.into_iter().map(|&x| Block { min: x, max: x }).reduce(|a, b| around(&a, &b))
 }
 
 /// The body of elements of a rule.
