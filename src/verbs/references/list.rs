@@ -18,7 +18,7 @@ pub fn list() -> Result<Exit> {
             format!("{:?}", p.kind.get_ref()).to_lowercase(),
             p.version.clone(),
             p.date.to_string(),
-            format!("{} rows, repeats to {:.0e}", data.rows(), p.repeat.difference),
+            format!("{} rows, {}", data.rows(), repeats(p.repeat.difference)),
         ]);
     }
     for (id, export) in inputs::all()? {
@@ -33,6 +33,10 @@ pub fn list() -> Result<Exit> {
         print(&format!("{}: {state}\n", code.name()))?;
     }
     Ok(Exit::Pass)
+}
+
+fn repeats(difference: f64) -> String {
+    if difference == 0.0 { "repeats exactly".to_owned() } else { format!("repeats to {difference:.0e}") }
 }
 
 fn table(lines: &[[String; 5]]) -> String {
