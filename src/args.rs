@@ -43,6 +43,9 @@ pub enum Verb {
     Report(Report),
     /// Write the network or mesh of a case for another code
     Export(Export),
+    /// Outputs of other codes: what there is, whether it is whole, make it again, race the codes
+    #[command(subcommand)]
+    References(References),
 }
 
 /// `seam validate`
@@ -179,4 +182,74 @@ pub struct Report {
     /// What is judged beside
     #[command(flatten)]
     pub references: ReferencesFolder,
+}
+
+/// `seam references`
+#[derive(Debug, Subcommand)]
+pub enum References {
+    /// List the references: kind, code, date, and which code is installed here
+    List,
+    /// Check hashes, provenance, and that Seam still exports the inputs they were made from
+    Verify(ReferencesFolder),
+    /// Run the installed codes again and show the difference to what is committed
+    Regenerate(Regenerate),
+    /// Run the same network and mesh in Seam and in each installed code, and compare time and result
+    Race(Race),
+    /// Seam's own lane of a race
+    #[command(hide = true)]
+    Lane(Lane),
+}
+
+/// `seam references regenerate`
+#[derive(Debug, Args)]
+pub struct Regenerate {
+    /// CASE or CASE/SOURCE; all if none is given
+    #[arg(value_name = "ID")]
+    pub ids: Vec<String>,
+    /// Only what this code makes
+    #[arg(long = "with", value_enum, value_name = "CODE")]
+    pub code: Option<Code>,
+    /// Replace what is committed by what the codes give now
+    #[arg(long)]
+    pub accept: bool,
+    /// Folder with `generators` and `data`
+    #[arg(long, value_name = "DIR", default_value = "references")]
+    pub home: PathBuf,
+}
+
+/// `seam references race`
+#[derive(Debug, Args)]
+pub struct Race {
+    /// Sizes of the network, in particles
+    #[arg(long, value_name = "N", num_args = 1.., default_values_t = [4_000, 20_000])]
+    pub particles: Vec<usize>,
+    /// Sizes of the mesh, in nodes
+    #[arg(long, value_name = "N", num_args = 1.., default_values_t = [5_000])]
+    pub nodes: Vec<usize>,
+    /// Time steps of the network
+    #[arg(long, value_name = "N", default_value = "200")]
+    pub steps: NonZeroUsize,
+    /// Threads or ranks
+    #[arg(long, value_name = "N", num_args = 1.., default_values = ["1", "2"])]
+    pub threads: Vec<NonZeroUsize>,
+    /// Runs of each code, one after the other in turn; the median counts
+    #[arg(long, value_name = "N", default_value = "3")]
+    pub rounds: NonZeroUsize,
+    /// Folder for race.csv and race.toml
+    #[arg(long, value_name = "DIR", default_value = "race")]
+    pub out: PathBuf,
+    /// Folder with `generators`
+    #[arg(long, value_name = "DIR", default_value = "references")]
+    pub home: PathBuf,
+}
+
+/// `seam references lane`
+#[derive(Debug, Args)]
+pub struct Lane {
+    /// Folder of an exported network; a bar of this many nodes if it is a number
+    pub what: String,
+    /// Folder for the result
+    pub out: PathBuf,
+    /// Threads
+    pub threads: usize,
 }

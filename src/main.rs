@@ -24,6 +24,7 @@ fn main() -> ExitCode {
         Verb::Check(words) => verbs::check(&words),
         Verb::Report(words) => verbs::report(&words),
         Verb::Export(words) => verbs::export(&words),
+        Verb::References(words) => verbs::references(&words),
     };
     let exit = done.unwrap_or_else(|error| {
         eprintln!("seam: {}", message::of(&error));

@@ -95,3 +95,139 @@ fn an_empty_folder_is_4() {
     assert_eq!(outcome.code, Some(4));
     assert!(outcome.stderr.contains("no references; put them there"), "{}", outcome.stderr);
 }
+
+/// `seam references …` where only `tools` is on the search path, and no LAMMPS.
+fn references(tools: &Path, words: &[&str]) -> (Option<i32>, String) {
+    let output = common::seam()
+        .arg("references")
+        .args(words)
+        .env("PATH", tools)
+        .env("SEAM_LAMMPS", tools.join("lammps"))
+        .output()
+        .unwrap();
+    let said = String::from_utf8([output.stdout, output.stderr].concat()).unwrap();
+    (output.status.code(), said)
+}
+
+fn repository() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("references")
+}
+
+#[test]
+fn the_list_names_codes_and_how_to_install_them() {
+    let empty = tempfile::tempdir().unwrap();
+    let (code, said) = references(empty.path(), &["list"]);
+    assert_eq!(code, Some(0), "{said}");
+    for part in [
+        "bond-for-bond-static/random-yade",
+        "prototype",
+        "yade: not installed",
+        "references/install/lammps.sh",
+    ] {
+        assert!(said.contains(part), "'{part}' is not in:\n{said}");
+    }
+}
+
+#[test]
+fn verify_passes_what_is_whole_and_refuses_what_is_not() {
+    let (home, folder) = home();
+    let verify = || references(home.path(), &["verify", "--references", folder.to_str().unwrap()]);
+    let (code, said) = verify();
+    assert_eq!(code, Some(0), "{said}");
+    let csv = folder.join("bond-for-bond-static/chain-yade.csv");
+    let whole = fs::read(&csv).unwrap();
+    let mut altered = whole.clone();
+    let digit = altered.iter_mut().rev().find(|byte| byte.is_ascii_digit()).unwrap();
+    *digit = if *digit == b'0' { b'1' } else { b'0' };
+    fs::write(&csv, &altered).unwrap();
+    let (code, said) = verify();
+    assert_eq!(code, Some(4), "{said}");
+    assert!(said.contains("chain-yade.csv: altered"), "{said}");
+    fs::write(&csv, whole).unwrap();
+    let toml = folder.join("bond-for-bond-static/chain-yade.toml");
+    let text = fs::read_to_string(&toml).unwrap();
+    let (before, after) = text.split_once("\"bonds.csv\" = \"").unwrap();
+    fs::write(&toml, format!("{before}\"bonds.csv\" = \"{}{}", "0".repeat(8), &after[8..])).unwrap();
+    let (code, said) = verify();
+    assert_eq!(code, Some(4), "{said}");
+    assert!(said.contains("out of date: its input 'bonds.csv'") && said.contains("--with yade"), "{said}");
+}
+
+#[test]
+fn without_a_code_nothing_is_made_and_one_line_says_how_to_install_it() {
+    let empty = tempfile::tempdir().unwrap();
+    let home = repository();
+    let (code, said) =
+        references(empty.path(), &["regenerate", "--with", "yade", "--home", home.to_str().unwrap()]);
+    assert_eq!(code, Some(4), "{said}");
+    assert_eq!(said.matches("sh references/install/yade.sh").count(), 1, "{said}");
+    let (code, said) = references(empty.path(), &["regenerate", "--home", empty.path().to_str().unwrap()]);
+    assert_eq!(code, Some(2), "{said}");
+    assert!(said.contains("--home"), "{said}");
+    let (code, said) = references(empty.path(), &["regenerate", "nothing", "--home", home.to_str().unwrap()]);
+    assert_eq!(code, Some(2), "{said}");
+    assert!(said.contains("no code makes 'nothing'"), "{said}");
+}
+
+/// A stand-in for YADE that hands back what is committed, changed by `edit` (a sed command) and hashed anew.
+#[cfg(unix)]
+fn stand_in(folder: &Path, edit: &str) {
+    use std::os::unix::fs::PermissionsExt;
+    let data = repository().join("data");
+    let script = format!(
+        "#!/bin/sh\nPATH=/usr/bin:/bin\ncase=$6 name=$7\nmkdir -p $SEAM_REFERENCES/$case\n\
+         sed '{edit}' {data}/$case/$name.csv > $SEAM_REFERENCES/$case/$name.csv\n\
+         hash=$(sha256sum $SEAM_REFERENCES/$case/$name.csv | cut -d' ' -f1)\n\
+         sed \"s/^csv_sha256.*/csv_sha256 = \\\"$hash\\\"/\" {data}/$case/$name.toml > $SEAM_REFERENCES/$case/$name.toml\n",
+        data = data.display()
+    );
+    let file = folder.join("yade");
+    fs::write(&file, script).unwrap();
+    fs::set_permissions(&file, fs::Permissions::from_mode(0o755)).unwrap();
+}
+
+/// The same numbers pass; others are red and replace nothing, until they are accepted.
+#[cfg(unix)]
+#[test]
+fn only_accepted_numbers_replace_what_is_committed() {
+    let tools = tempfile::tempdir().unwrap();
+    let home = tools.path().join("references");
+    for (file, bytes) in common::files(&repository()) {
+        let copy = home.join(file.strip_prefix(repository()).unwrap());
+        fs::create_dir_all(copy.parent().unwrap()).unwrap();
+        fs::write(copy, bytes).unwrap();
+    }
+    let id = "bond-for-bond-static/chain-yade";
+    let words = ["regenerate", id, "--home", home.to_str().unwrap()];
+    let committed = || fs::read(home.join(format!("data/{id}.csv"))).unwrap();
+    let before = committed();
+    stand_in(tools.path(), "");
+    let (code, said) = references(tools.path(), &words);
+    assert_eq!(code, Some(0), "{said}");
+    assert!(said.contains("chain-yade: the same numbers"), "{said}");
+    stand_in(tools.path(), "$ s/^-/-9/");
+    let (code, said) = references(tools.path(), &words);
+    assert_eq!(code, Some(1), "{said}");
+    assert!(said.contains("chain-yade: differs by"), "{said}");
+    assert_eq!(committed(), before, "replaced without being accepted");
+    let (code, said) = references(tools.path(), &[&words[..], &["--accept"]].concat());
+    assert_eq!(code, Some(0), "{said}");
+    assert_ne!(committed(), before);
+    fs::write(tools.path().join("yade"), "#!/bin/sh\necho out of particles\nexit 3\n").unwrap();
+    let (code, said) = references(tools.path(), &words);
+    assert_eq!(code, Some(2), "{said}");
+    assert!(said.contains("static.py failed") && said.contains("out of particles"), "{said}");
+}
+
+#[test]
+fn seam_races_alone_where_nothing_else_is_installed() {
+    let empty = tempfile::tempdir().unwrap();
+    let out = empty.path().join("race");
+    let words = ["race", "--particles", "100", "--nodes", "100", "--steps", "5", "--rounds", "1"];
+    let (code, said) = references(empty.path(), &[&words[..], &["--out", out.to_str().unwrap()]].concat());
+    assert_eq!(code, Some(0), "{said}");
+    let csv = fs::read_to_string(out.join("race.csv")).unwrap();
+    let lanes: Vec<&str> = csv.lines().skip(1).map(|l| l.split(',').nth(3).unwrap()).collect();
+    assert_eq!(lanes, ["seam"; 4], "network and mesh on one and two threads: {csv}");
+    assert!(out.join("race.toml").is_file());
+}

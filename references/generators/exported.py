@@ -5,6 +5,7 @@ Plain Python (3.11 or later), no dependencies.
 
 import csv
 import math
+import resource
 import sys
 import tomllib
 from pathlib import Path
@@ -116,3 +117,17 @@ def difference(first, second):
         change = max(abs(p - q) for p, q in zip(a, b))
         worst = max(worst, change / scale if scale > 0.0 else change)
     return worst
+
+
+def memory_mb():
+    """Largest memory of this process so far."""
+    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
+
+
+def report(out, seconds, memory, rows):
+    """What a race needs: time and memory in one file, where everything ended in the other."""
+    out = Path(out)
+    out.mkdir(parents=True, exist_ok=True)
+    (out / "time.toml").write_text(f"seconds = {seconds!r}\nmemory_mb = {memory!r}\n")
+    lines = [",".join(map(repr, row)) for row in rows]
+    (out / "final.csv").write_text("\n".join(["ux,uy,uz", *lines]) + "\n")

@@ -1,5 +1,6 @@
 //! The checked numbers of a reference.
 
+use crate::hash::Sha256;
 use crate::problem::{Problem, Result};
 use crate::provenance::Provenance;
 use std::collections::BTreeMap;
@@ -41,5 +42,36 @@ impl Dataset {
     /// Number of rows; at least one.
     pub fn rows(&self) -> usize {
         self.numbers.values().next().map_or(0, Vec::len)
+    }
+
+    /// Whether it was made from exactly these inputs, given by name.
+    ///
+    /// # Errors
+    /// [`Problem::OutOfDate`] for the first input that is new, gone or different.
+    pub fn made_from(&self, inputs: &BTreeMap<String, Sha256>) -> Result<()> {
+        let recorded = &self.provenance.inputs;
+        let changed =
+            inputs.keys().chain(recorded.keys()).find(|name| inputs.get(*name) != recorded.get(*name));
+        changed.map_or(Ok(()), |input| {
+            Err(Problem::OutOfDate {
+                file: self.file.replace(".csv", ".toml"),
+                input: input.clone(),
+                command: self.provenance.command.clone(),
+            })
+        })
+    }
+
+    /// Largest difference of any number from the one in the same place of `other`, relative to the largest of its column in
+    /// `other`; `None` if the tables do not have the same columns and rows.
+    pub fn difference(&self, other: &Dataset) -> Option<f64> {
+        let alike = self.rows() == other.rows() && self.numbers.keys().eq(other.numbers.keys());
+        alike.then(|| {
+            let of_column = |(a, b): (&Vec<f64>, &Vec<f64>)| {
+                let largest = b.iter().fold(0.0f64, |m, b| m.max(b.abs()));
+                let change = a.iter().zip(b).fold(0.0f64, |m, (a, b)| m.max((a - b).abs()));
+                if largest > 0.0 { change / largest } else { change }
+            };
+            self.numbers.values().zip(other.numbers.values()).map(of_column).fold(0.0, f64::max)
+        })
     }
 }

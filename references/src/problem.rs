@@ -65,6 +65,18 @@ pub enum Problem {
         /// The command that writes it.
         command: String,
     },
+    /// A reference made from an input that has changed since.
+    #[error(
+        "{file}: out of date: its input '{input}' is not what Seam exports now; undo that change, or make it again with: {command}"
+    )]
+    OutOfDate {
+        /// The provenance file.
+        file: String,
+        /// Name of the input.
+        input: String,
+        /// The command that writes it.
+        command: String,
+    },
     /// A CSV that does not read as its provenance says.
     #[error("{file}:{line}: {}{message}", if column.is_empty() { String::new() } else { format!("column '{column}' ") })]
     Table {

@@ -228,3 +228,27 @@ fn a_folder_is_read_in_pairs() {
     let missing = from_folder(&folder.path().join("nowhere")).unwrap_err();
     assert!(matches!(missing, Problem::Unreadable { .. }), "{missing:?}");
 }
+
+#[test]
+fn a_changed_input_is_told() {
+    let text =
+        provenance(CSV).replace("[inputs]\n", &format!("[inputs]\n\"a.csv\" = \"{}\"\n", Sha256::of(b"a")));
+    let data = reference(CSV, text).open().unwrap();
+    let inputs = |a: &[u8]| [("a.csv".to_owned(), Sha256::of(a))].into();
+    data.made_from(&inputs(b"a")).unwrap();
+    let problem = data.made_from(&inputs(b"b")).unwrap_err();
+    assert!(problem.to_string().starts_with("source.toml: out of date: its input 'a.csv'"), "{problem}");
+    assert!(data.made_from(&Default::default()).is_err(), "an input that is gone");
+    let more = [("a.csv".to_owned(), Sha256::of(b"a")), ("b.csv".to_owned(), Sha256::of(b"b"))].into();
+    assert!(data.made_from(&more).is_err(), "an input that is new");
+}
+
+#[test]
+fn a_difference_is_relative_to_its_column() {
+    let of = |csv: &str| reference(csv, provenance(csv)).open().unwrap();
+    let data = of(CSV);
+    assert_eq!(data.difference(&data), Some(0.0));
+    let off = of("x,u\n0.0,5e-4\n1.0,-2.5e-3\n").difference(&data).unwrap();
+    assert!((off - 0.2).abs() < 1e-15, "{off}");
+    assert_eq!(of("x,u\n0.0,0\n").difference(&data), None);
+}

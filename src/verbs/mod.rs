@@ -3,6 +3,7 @@
 mod check;
 mod export;
 mod list;
+mod references;
 mod report;
 mod run;
 mod show;
@@ -11,6 +12,7 @@ mod validate;
 pub use check::check;
 pub use export::export;
 pub use list::list;
+pub use references::references;
 pub use report::report;
 pub use run::run;
 pub use show::show;

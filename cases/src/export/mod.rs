@@ -4,8 +4,10 @@
 //! `supports.csv` and `loads.csv` name points and components; `run.toml` says what is to be computed. The
 //! scripts in `references/generators` read such a folder and nothing else.
 
+pub mod lane;
 mod mesh;
 mod network;
+pub mod race;
 
 use crate::error::{Error, Fault, Result};
 use crate::file::SceneFile;
@@ -85,13 +87,18 @@ impl Export {
     }
 }
 
+/// Whether a case has networks that other codes answer bond for bond.
+pub fn has_networks(file: &SceneFile) -> bool {
+    bond_for_bond::answers(&file.scene.procedure)
+}
+
 /// What a case gives a code: its networks, or the one body of its scene.
 ///
 /// # Errors
 /// A case without bodies, with several or with one of the other kind; what the solver refuses.
 pub fn of(file: &SceneFile, code: Code) -> Result<Vec<Export>> {
-    let tasks = bond_for_bond::tasks(file, code)?;
-    if !tasks.is_empty() {
+    if has_networks(file) && code != Code::Calculix {
+        let tasks = bond_for_bond::tasks(file, code)?;
         return tasks.iter().map(|task| network::of_task(file, code, task)).collect();
     }
     let model = build(file)?.model;

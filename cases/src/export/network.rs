@@ -42,9 +42,12 @@ pub fn of_task(file: &SceneFile, code: Code, task: &Task) -> Result<Export> {
 
 /// The network of a scene, to be brought to rest.
 pub fn of_scene(file: &SceneFile, network: &Network, model: &Model) -> Result<BTreeMap<String, String>> {
-    // The stiffnesses are in the file; a scene's own micro material has been calibrated into them.
-    let material = BondMaterial { young_pa: 1.0, poisson: 0.0 };
-    Ok(files(network, material, model, &equilibrium(file, model)?))
+    Ok(free(network, model, &equilibrium(file, model)?))
+}
+
+/// A network whose micro material is not known any more: the stiffnesses are in the file, and they count.
+pub fn free(network: &Network, model: &Model, run: &str) -> BTreeMap<String, String> {
+    files(network, BondMaterial { young_pa: 1.0, poisson: 0.0 }, model, run)
 }
 
 fn equilibrium(file: &SceneFile, model: &Model) -> Result<String> {

@@ -55,6 +55,11 @@ pub(crate) struct History {
     pub rotations: Rotations,
 }
 
+/// Whether a procedure is of this family.
+pub(crate) fn answers(procedure: &str) -> bool {
+    [STATIC, DYNAMIC].contains(&procedure)
+}
+
 /// Networks of a case that a code is to solve; none if the case has none for it.
 pub(crate) fn tasks(file: &SceneFile, code: Code) -> Result<Vec<Task>> {
     let setting = Setting { file, tier: Tier::Quick };

@@ -37,12 +37,12 @@ def data(net, types):
     return "\n".join(lines) + "\n"
 
 
-def build(folder, factor="1.0", arguments=()):
+def build(folder, factor="1.0"):
     """The network ready to run; `factor` is the LAMMPS formula by which the forces are multiplied."""
     net = network(folder)
     types = kinds(net.bonds)
     reach = 1.5 * max(bond.length for bond in net.bonds)
-    lmp = lammps(cmdargs=["-log", "none", "-screen", "none", *arguments])
+    lmp = lammps(cmdargs=["-log", "none", "-screen", "none"])
     ids = lambda particles: " ".join(str(p + 1) for p in particles)
     commands = ["units si", f"dimension {2 if net.plane else 3}", f"boundary f f {'p' if net.plane else 'f'}"]
     commands += ["newton on off", "atom_style bpm/sphere", "atom_modify map array sort 0 0.0"]
@@ -58,7 +58,8 @@ def build(folder, factor="1.0", arguments=()):
                        "bond_style bpm/rotational smooth no overlay/pair yes break no"])
     net.types = types
     bond_coefficients(lmp, net, "0 0 0 0")
-    lmp.commands_list([f"group clamped id {ids(net.clamped)}", "group free subtract all clamped",
+    held = f"id {ids(net.clamped)}" if net.clamped else "empty"
+    lmp.commands_list([f"group clamped {held}", "group free subtract all clamped",
                        "fix move free nve/bpm/sphere", f"variable factor equal {factor}"])
     by_force = {}
     for particle, force in net.forces.items():

@@ -26,8 +26,8 @@ from yade.wrapper import (
 UNBREAKABLE = 1e30
 
 
-def build(folder, damping, load):
-    """Fills the scene; `load` is the command that PyRunner calls each step before the particles move."""
+def build(folder, damping, load, every=1):
+    """Fills the scene; `load` is the command that PyRunner calls, each step or every so many, before the particles move."""
     net = network(folder)
     O.reset()
     material = O.materials.append(
@@ -51,7 +51,7 @@ def build(folder, damping, load):
             [cohesion],
             [Law2_ScGeom6D_CohFrictPhys_CohesionMoment()],
         ),
-        PyRunner(command=load, iterPeriod=1, initRun=True),
+        PyRunner(command=load, iterPeriod=every, initRun=True),
         NewtonIntegrator(damping=damping, gravity=(0, 0, 0)),
     ]
     for bond in net.bonds:

@@ -1,0 +1,77 @@
+//! Networks against YADE and LAMMPS: they agree, and a change of any part of the network shows.
+
+use seam_cases::catalogue;
+use seam_cases::export::{Code, of};
+use seam_cases::overrides::Override;
+use seam_cases::procedures::run;
+use seam_cases::result::ReferenceKind;
+use seam_cases::scene::Tier;
+use seam_solver::dem::network_csv::parse;
+use seam_solver::space::Space;
+
+/// How many quantities there are, and the ids of those outside of what is accepted.
+fn outside(id: &str, changes: &[&str]) -> (usize, Vec<String>) {
+    let changes: Vec<Override> = changes.iter().map(|c| Override::parse(c).unwrap()).collect();
+    let result = run(&catalogue::case(id, &changes).unwrap(), Tier::Quick).unwrap().result;
+    assert!(result.quantities.iter().all(|q| q.kind != ReferenceKind::Exact), "a code is named for each");
+    let bad = result.quantities.iter().filter(|q| {
+        let [low, high] = q.accepted.unwrap();
+        !(low <= q.value && q.value <= high)
+    });
+    (result.quantities.len(), bad.map(|q| q.id.clone()).collect())
+}
+
+#[test]
+fn networks_at_rest_agree() {
+    assert_eq!(outside("bond-for-bond-static", &[]), (18, Vec::new()));
+}
+
+#[test]
+fn networks_in_motion_agree() {
+    assert_eq!(outside("bond-for-bond-dynamic", &[]), (9, Vec::new()));
+}
+
+/// One part in a thousand of a load or of torsion is seen, and only where it acts.
+#[test]
+fn a_changed_network_shows() {
+    let (_, load) = outside("bond-for-bond-static", &["parameters.square_N.value=0.05005"]);
+    let of_square = |code: &str, what: &str| format!("square-{code}-{what}");
+    let expected = ["yade", "lammps"].map(|c| [of_square(c, "displacement"), of_square(c, "rotation")]);
+    assert_eq!(load, expected.concat());
+    let (_, torsion) = outside("bond-for-bond-static", &["parameters.poisson.value=0.252"]);
+    assert!(!torsion.is_empty());
+    assert!(torsion.iter().all(|id| id.starts_with("hexagonal") || id.starts_with("random")), "{torsion:?}");
+    let (_, step) = outside("bond-for-bond-dynamic", &["parameters.ramp_step_s.value=2.499e-5"]);
+    assert!(step.contains(&"ramp-yade-displacement".to_owned()), "{step:?}");
+}
+
+/// What is exported is the network, and reads back; its hashes are those of the references.
+#[test]
+fn exports_are_what_the_references_were_made_from() {
+    let file = catalogue::case("bond-for-bond-static", &[]).unwrap();
+    let exports = of(&file, Code::Yade).unwrap();
+    assert_eq!(exports.len(), 5);
+    for export in exports {
+        let space = if export.files["run.toml"].contains("plane") { Space::Plane } else { Space::Solid };
+        let bytes = |name: &str| export.files[name].as_bytes().to_vec();
+        let (particles, bonds) = (bytes("particles.csv"), bytes("bonds.csv"));
+        let network = parse(space, ("particles.csv", &particles), ("bonds.csv", &bonds)).unwrap();
+        assert_eq!(network.bonds.len() + 1, export.files["bonds.csv"].lines().count());
+        let (case, source) =
+            export.reference().split_once('/').map(|(a, b)| (a.to_owned(), b.to_owned())).unwrap();
+        seam_references::find(&case, &source).unwrap().open().unwrap().made_from(&export.hashes()).unwrap();
+    }
+}
+
+#[test]
+fn a_scene_is_exported_if_it_is_one_body_of_the_right_kind() {
+    let coupled = catalogue::case("patch-coupled", &[]).unwrap();
+    let refusal = of(&coupled, Code::Yade).unwrap_err().to_string();
+    assert!(refusal.contains("yade takes one body of particles") && refusal.contains("--set"), "{refusal}");
+    let lattice = of(&catalogue::case("patch-lattice", &[]).unwrap(), Code::Lammps).unwrap();
+    assert_eq!(lattice[0].reference(), "patch-lattice/lammps");
+    assert!(lattice[0].files["particles.csv"].lines().count() > 10);
+    let mesh = of(&catalogue::case("cook-membrane", &[]).unwrap(), Code::Calculix).unwrap();
+    assert!(mesh[0].files["run.toml"].contains("element = \"CPS4\""), "{:?}", mesh[0].files["run.toml"]);
+    assert!(of(&catalogue::case("cook-membrane", &[]).unwrap(), Code::Lammps).is_err());
+}
