@@ -9,6 +9,7 @@ pub mod coupling;
 pub mod dem;
 pub mod dynamics;
 pub mod error;
+pub mod failure;
 pub mod fem;
 pub mod files;
 pub mod model;
