@@ -6,6 +6,7 @@
 
 pub mod check;
 pub mod coupling;
+pub mod cracking;
 pub mod dem;
 pub mod dynamics;
 pub mod error;
