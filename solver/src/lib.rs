@@ -5,6 +5,7 @@
 //! solution with its residual and its [`work::Work`] comes out.
 
 pub mod check;
+pub mod contact;
 pub mod coupling;
 pub mod cracking;
 pub mod dem;
@@ -13,6 +14,7 @@ pub mod error;
 pub mod failure;
 pub mod fem;
 pub mod files;
+pub mod fracture_mechanics;
 pub mod model;
 pub mod solve;
 pub mod space;
