@@ -12,12 +12,15 @@
 //!
 //! with both states at the same q: the energy of the failing bonds, and what the bodies around them let go.
 
+mod base;
 mod capacitance;
 mod modes;
+mod options;
 mod path;
 mod pieces;
 mod system;
 
+pub use options::Options;
 pub use path::{EnergyLedger, Event, Outcome, Stop, envelope};
 pub use system::Updating;
 
@@ -26,36 +29,11 @@ use crate::failure::forces::BondForce;
 use crate::failure::{Failure, Site};
 use crate::model::{Model, Part};
 use crate::work::Work;
-use modes::{Mode, modes, product};
-use system::{Holding, System};
+use modes::{modes, product};
+use system::{Holding, System, Weakened};
 
 /// Bodies are unloaded when no demand exceeds this share of the first: what is left is rounding.
 const UNLOADED: f64 = 1e-9;
-
-/// Where to stop, and how to get there.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Options {
-    /// No event beyond this load factor.
-    pub factor_limit: f64,
-    /// At most so many events.
-    pub events: usize,
-    /// Sites whose demands agree within this relative tolerance fail in the order of their numbers: symmetric pairs break in a defined
-    /// order. Far above the rounding of a solve, far below what scatter or geometry make of it.
-    pub tie_tolerance: f64,
-    /// When to update and when to factorise.
-    pub updating: Updating,
-}
-
-impl Default for Options {
-    fn default() -> Self {
-        Options {
-            factor_limit: f64::INFINITY,
-            events: usize::MAX,
-            tie_tolerance: 1e-8,
-            updating: Updating::default(),
-        }
-    }
-}
 
 /// A model on its way to failure.
 pub struct Cracking {
@@ -73,12 +51,6 @@ pub struct Cracking {
     stop: Option<Stop>,
 }
 
-/// A bond that fails: the share it loses of its present stiffness, and its modes on all unknowns.
-struct Failing {
-    lost: f64,
-    modes: Vec<Mode>,
-}
-
 impl Cracking {
     /// Solves the intact model; `laws` go with parts of it.
     ///
@@ -86,7 +58,7 @@ impl Cracking {
     /// As [`crate::solve::statics::solve`]; loads and prescribed displacements together, or neither; a law for a part that is no
     /// network, or made for another; a tolerance or limit out of range.
     pub fn new(model: &Model, laws: Vec<(usize, Failure)>, options: Options) -> Result<Self> {
-        check(model, &laws, &options)?;
+        options::check(model, &laws, &options)?;
         let driven = model.supports.iter().any(|s| s.value != 0.0);
         if driven == model.loads.iter().any(|l| l.value != 0.0) {
             let message = if driven {
@@ -159,15 +131,17 @@ impl Cracking {
             self.stop = Some(Stop::EventLimit);
             return Ok(None);
         }
-        let (part, bonds, failing, changes) = self.fail(law, site, &forces);
+        let failing = self.fail(law, site, &forces);
         let before = self.system.u.clone();
         let stiffness = self.stiffness;
         let q = factor * self.displacement;
         let energy = 0.5 * q * q * stiffness;
-        let holding = self.system.weaken(&changes)?;
+        let holding = self.system.weaken(&failing)?;
         let lost = |u: &[f64], v: &[f64]| {
-            let of =
-                |f: &Failing| f.lost * f.modes.iter().map(|m| product(m, u) * product(m, v)).sum::<f64>();
+            let of = |f: &Weakened| {
+                (1.0 - f.after / f.before)
+                    * f.modes.iter().map(|m| product(m, u) * product(m, v)).sum::<f64>()
+            };
             0.5 * factor * failing.iter().map(of).sum::<f64>()
         };
         let fracture_energy = factor * lost(&before, &before);
@@ -183,9 +157,11 @@ impl Cracking {
             }
         };
         self.system.work.steps += 1;
-        let integrity = bonds.iter().map(|&b| self.laws[law].1.integrity()[b]).collect();
+        let (part, failure) = &self.laws[law];
+        let bonds: Vec<usize> = failing.iter().map(|f| f.bond).collect();
+        let integrity = bonds.iter().map(|&b| failure.integrity()[b]).collect();
         self.events.push(Event {
-            part,
+            part: *part,
             site,
             bonds,
             integrity,
@@ -234,32 +210,21 @@ impl Cracking {
         None
     }
 
-    /// Lets a site fail: the part and its bonds, what they lose, and their new weights.
-    #[allow(clippy::type_complexity)]
-    fn fail(
-        &mut self,
-        law: usize,
-        site: Site,
-        forces: &[BondForce],
-    ) -> (usize, Vec<usize>, Vec<Failing>, Vec<(usize, usize, f64)>) {
+    /// Lets a site fail: its bonds, with what is left of them.
+    fn fail(&mut self, law: usize, site: Site, forces: &[BondForce]) -> Vec<Weakened> {
         let (part, failure) = &mut self.laws[law];
-        let mut failing = Vec::new();
-        let mut changes = Vec::new();
-        let Part::Discrete { network, .. } = &self.system.model.parts[*part] else {
-            return (*part, Vec::new(), failing, changes);
-        };
+        let Part::Discrete { network, .. } = &self.system.model.parts[*part] else { return Vec::new() };
         let offset = self.system.numbering.offset(*part);
         let bonds = failure.bonds_of(site, network, forces);
-        for &bond in &bonds {
-            let before = failure.integrity()[bond];
-            let weight = network.bonds.weight[bond];
-            let after = failure.fail(bond);
-            let own = modes(network, bond, weight).into_iter();
+        let weaken = |bond: usize| {
+            let integrity = failure.integrity()[bond];
+            let before = network.bonds.weight[bond];
+            let after = before * (failure.fail(bond) / integrity);
+            let own = modes(network, bond, before).into_iter();
             let modes = own.map(|m| m.into_iter().map(|(i, v)| (i + offset, v)).collect()).collect();
-            failing.push(Failing { lost: 1.0 - after / before, modes });
-            changes.push((*part, bond, weight * (after / before)));
-        }
-        (*part, bonds, failing, changes)
+            Weakened { part: *part, bond, before, after, modes }
+        };
+        bonds.into_iter().map(weaken).collect()
     }
 
     /// Goes on to the end.
@@ -287,41 +252,4 @@ impl Cracking {
 
 fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
-}
-
-fn check(model: &Model, laws: &[(usize, Failure)], options: &Options) -> Result<()> {
-    let refuse = |message: String| Err(Error::Load { what: "cracking".to_owned(), message });
-    for (k, (part, failure)) in laws.iter().enumerate() {
-        match model.parts.get(*part) {
-            Some(Part::Discrete { network, .. }) if network.bonds.len() == failure.integrity().len() => {}
-            Some(Part::Discrete { name, network }) => {
-                return refuse(format!(
-                    "the failure law of body '{name}' is made for {} bonds, the body has {}; make it for this network",
-                    failure.integrity().len(),
-                    network.bonds.len()
-                ));
-            }
-            Some(Part::Continuum(body)) => {
-                let name = &body.name;
-                return refuse(format!("body '{name}' has elements; give failure laws to particles only"));
-            }
-            None => return refuse(format!("there is no part {part} for a failure law")),
-        }
-        if laws[..k].iter().any(|(other, _)| other == part) {
-            return refuse(format!("body '{}' has two failure laws; give one", model.parts[*part].name()));
-        }
-        if failure.integrity().iter().any(|g| *g != 1.0) {
-            return refuse(format!(
-                "the failure law of body '{}' has broken bonds; start with a new one",
-                model.parts[*part].name()
-            ));
-        }
-    }
-    if !(0.0..0.1).contains(&options.tie_tolerance) {
-        return refuse(format!("tie_tolerance = {}; give a small share like 1e-8", options.tie_tolerance));
-    }
-    if options.factor_limit.is_nan() || options.factor_limit <= 0.0 {
-        return refuse(format!("factor_limit = {}; give a positive load factor", options.factor_limit));
-    }
-    Ok(())
 }
