@@ -5,12 +5,16 @@
 //! solution with its residual and its [`work::Work`] comes out.
 
 pub mod check;
+pub mod contact;
 pub mod coupling;
+pub mod cracking;
 pub mod dem;
 pub mod dynamics;
 pub mod error;
+pub mod failure;
 pub mod fem;
 pub mod files;
+pub mod fracture_mechanics;
 pub mod model;
 pub mod simulation;
 pub mod solve;

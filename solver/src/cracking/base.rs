@@ -1,0 +1,265 @@
+//! A factorised matrix with its ties, and the low-rank update for what its bonds have lost since; see [`super::system`].
+
+use super::capacitance::Capacitance;
+use super::modes::{Mode, product};
+use super::system::Weakened;
+use crate::dem;
+use crate::error::{Error, Result};
+use crate::fem;
+use crate::model::{Model, Numbering, Part};
+use crate::solve::kkt::{EPSILONS, Kkt, KktSolution, Layout};
+use crate::solve::mechanism;
+use crate::solve::sparse::{SymmetricMatrix, Triplets};
+use crate::solve::statics::{self, Constraints};
+use crate::space::Vec3;
+use crate::work::Work;
+use std::collections::BTreeMap;
+
+/// Equilibrium of one state, and of what follows from it by losses.
+pub(super) struct Base {
+    /// None without free unknowns.
+    kkt: Option<Kkt>,
+    /// On all unknowns.
+    stiffness: SymmetricMatrix,
+    pub free: Vec<usize>,
+    pub tied: Constraints,
+    /// `u₀` on all unknowns, then the multipliers.
+    pub solution: Vec<f64>,
+    /// Root of the diagonal of `K₀`, inverted: scales residuals.
+    scale: Vec<f64>,
+    updated: Vec<Updated>,
+    place_of: BTreeMap<(usize, usize), std::ops::Range<usize>>,
+    capacitance: Capacitance,
+}
+
+/// One mode of a bond that has lost stiffness since the base was factorised.
+struct Updated {
+    /// Weight of the bond in the base.
+    weight: f64,
+    /// On all unknowns.
+    mode: Mode,
+    /// `Z` on all unknowns, then the multipliers.
+    z: Vec<f64>,
+}
+
+/// Stiffness of all elements, on all unknowns: it never changes.
+pub(super) fn elements(model: &Model, numbering: &Numbering, work: &mut Work) -> Result<Triplets> {
+    let mut triplets = Triplets::default();
+    for (p, part) in model.parts.iter().enumerate() {
+        if let Part::Continuum(body) = part {
+            let offset = numbering.offset(p);
+            fem::assembly::for_each_stiffness(body, |dofs, k| {
+                work.element_updates += 1;
+                let shifted: Vec<usize> = dofs.iter().map(|d| d + offset).collect();
+                triplets.push_block(&shifted, k);
+            })?;
+        }
+    }
+    Ok(triplets)
+}
+
+/// A residual (relative, scaled) above this is refined on.
+const REFINED: f64 = 1e-13;
+/// A residual that refinement leaves above this calls for a new base.
+const REFUSED: f64 = 1e-11;
+const MOST_REFINEMENTS: usize = 3;
+
+impl Base {
+    /// Modes in the update.
+    pub fn updated_modes(&self) -> usize {
+        self.updated.len()
+    }
+
+    /// Whether a bond (part, index) is in the update.
+    pub fn has(&self, bond: (usize, usize)) -> bool {
+        self.place_of.contains_key(&bond)
+    }
+
+    /// Completes the update; `false` where a pivot is lost in rounding.
+    pub fn factorise_update(&mut self) -> bool {
+        self.capacitance.factorise()
+    }
+
+    /// Factorises and solves; gives the softest motion of the free unknowns too.
+    pub fn new(
+        model: &Model,
+        numbering: &Numbering,
+        elements: &Triplets,
+        load: &[f64],
+        prescribed: &[Option<f64>],
+        work: &mut Work,
+    ) -> Result<(Self, (Vec<f64>, f64))> {
+        let n = numbering.len();
+        let mut triplets = elements.clone();
+        for (p, part) in model.parts.iter().enumerate() {
+            if let Part::Discrete { name, network } = part {
+                let offset = numbering.offset(p);
+                dem::bond::for_each_stiffness(network, name, |dofs, k| {
+                    work.bond_updates += 1;
+                    let shifted: Vec<usize> = dofs.iter().map(|d| d + offset).collect();
+                    triplets.push_block(&shifted, k);
+                })?;
+            }
+        }
+        let stiffness = SymmetricMatrix::from_triplets(n, &triplets);
+        let free: Vec<usize> = (0..n).filter(|&i| prescribed[i].is_none()).collect();
+        let mut place = vec![usize::MAX; n];
+        free.iter().enumerate().for_each(|(k, &i)| place[i] = k);
+        let tied = statics::constraints(model, numbering, prescribed, &place)?;
+        let (reduced, force) = statics::eliminate(&stiffness, load, prescribed, &free, &place);
+        let (group, positions) = statics::points_of(model, numbering, &free);
+        let row_positions: Vec<Vec3> = tied.rows.iter().map(|r| r.position).collect();
+        let layout = Layout {
+            space: model.space,
+            group: &group,
+            positions: &positions,
+            row_positions: &row_positions,
+        };
+        let scale = reduced.diagonal().iter().map(|d| if *d > 0.0 { 1.0 / d.sqrt() } else { 0.0 }).collect();
+        let mut base = Base {
+            kkt: None,
+            stiffness,
+            free,
+            tied,
+            solution: Vec::new(),
+            scale,
+            updated: Vec::new(),
+            place_of: BTreeMap::new(),
+            capacitance: Capacitance::default(),
+        };
+        let held: Vec<f64> = prescribed.iter().map(|p| p.unwrap_or(0.0)).collect();
+        if base.free.is_empty() {
+            base.solution = held;
+            return Ok((base, (Vec::new(), f64::INFINITY)));
+        }
+        let mut failure = None;
+        for epsilon in EPSILONS {
+            let kkt = Kkt::new(&reduced, &base.tied.reduced, &layout, epsilon, work)?;
+            let softest = kkt.softest_motion(work);
+            if softest.1 <= mechanism::FREE {
+                base.solution = held;
+                return Ok((base, softest));
+            }
+            match kkt.solve(&force, &base.tied.rhs, work) {
+                Ok(solution) => {
+                    base.solution = base.spread(&solution, &held);
+                    base.kkt = Some(kkt);
+                    return Ok((base, softest));
+                }
+                Err(error) => failure = Some(error),
+            }
+        }
+        Err(failure.unwrap_or_else(|| Error::Solve { message: "no factorisation was tried".to_owned() }))
+    }
+
+    /// A solution on all unknowns, then the multipliers; `held` are the values of the others.
+    fn spread(&self, solution: &KktSolution, held: &[f64]) -> Vec<f64> {
+        let mut all = held.to_vec();
+        self.free.iter().zip(&solution.u).for_each(|(&i, &v)| all[i] = v);
+        all.extend(&solution.multipliers);
+        all
+    }
+
+    /// `K₀⁻¹` on forces (all unknowns) and row values; prescribed unknowns rest.
+    fn solve(&self, force: &[f64], gaps: &[f64], work: &mut Work) -> Result<Vec<f64>> {
+        let held = vec![0.0; force.len()];
+        let Some(kkt) = &self.kkt else { return Ok(held) };
+        let reduced: Vec<f64> = self.free.iter().map(|&i| force[i]).collect();
+        Ok(self.spread(&kkt.solve(&reduced, gaps, work)?, &held))
+    }
+
+    /// Takes a bond into the update.
+    ///
+    /// # Errors
+    /// Solves that fail.
+    pub fn add(&mut self, weakened: &Weakened, work: &mut Work) -> Result<()> {
+        let Weakened { before, after, .. } = *weakened;
+        let first = self.updated.len();
+        let gaps = vec![0.0; self.tied.rows.len()];
+        for mode in weakened.modes.iter().cloned() {
+            let mut force = vec![0.0; self.stiffness.len()];
+            mode.iter().for_each(|&(i, v)| force[i] = v);
+            let z = self.solve(&force, &gaps, work)?;
+            let mut products: Vec<f64> = self.updated.iter().map(|u| product(&u.mode, &z)).collect();
+            products.push(product(&mode, &z));
+            self.capacitance.push(products, (before - after) / before);
+            self.updated.push(Updated { weight: before, mode, z });
+        }
+        self.place_of.insert(weakened.bond(), first..self.updated.len());
+        Ok(())
+    }
+
+    /// Further loss of a bond that is in the update.
+    pub fn lose(&mut self, weakened: &Weakened) {
+        for k in self.place_of[&weakened.bond()].clone() {
+            let before = self.updated[k].weight;
+            self.capacitance.set_loss(k, (before - weakened.after) / before);
+        }
+    }
+
+    /// `x + Z C⁻¹ Vᵀx`.
+    fn update(&self, x: &mut [f64]) {
+        let t = self.updated.iter().map(|u| product(&u.mode, x)).collect();
+        for (y, updated) in self.capacitance.solve(t).into_iter().zip(&self.updated) {
+            x.iter_mut().zip(&updated.z).for_each(|(x, z)| *x += y * z);
+        }
+    }
+
+    /// The updated equilibrium; `None` where refinement cannot make it accurate.
+    pub fn updated_solution(&self, load: &[f64], work: &mut Work) -> Result<Option<Vec<f64>>> {
+        let n = self.stiffness.len();
+        let mut x = self.solution.clone();
+        self.update(&mut x);
+        let mut last = f64::INFINITY;
+        for step in 0..=MOST_REFINEMENTS {
+            let (force, gaps, size) = self.residual(&x, load);
+            if size <= REFINED || step == MOST_REFINEMENTS || size.is_nan() || size > 0.5 * last {
+                last = last.min(size);
+                break;
+            }
+            last = size;
+            let mut correction = self.solve(&force, &gaps, work)?;
+            self.update(&mut correction);
+            x.iter_mut().zip(&correction).for_each(|(x, d)| *x += d);
+        }
+        x.truncate(n);
+        Ok((last <= REFUSED).then_some(x))
+    }
+
+    /// `K u = K₀u − V D Vᵀu` on all unknowns.
+    pub fn internal(&self, u: &[f64]) -> Vec<f64> {
+        let mut internal = vec![0.0; self.stiffness.len()];
+        self.stiffness.multiply_add(u, &mut internal);
+        for (updated, loss) in self.updated.iter().zip(self.capacitance.losses()) {
+            let lost = loss * product(&updated.mode, u);
+            updated.mode.iter().for_each(|&(i, v)| internal[i] -= lost * v);
+        }
+        internal
+    }
+
+    /// What is missing from equilibrium and from the rows, and its size relative to the forces and motions in it.
+    fn residual(&self, x: &[f64], load: &[f64]) -> (Vec<f64>, Vec<f64>, f64) {
+        let (u, multipliers) = x.split_at(self.stiffness.len());
+        let internal = self.internal(u);
+        let mut force: Vec<f64> = load.iter().zip(&internal).map(|(f, k)| f - k).collect();
+        let mut gaps = vec![0.0; multipliers.len()];
+        let (mut gap, mut motion) = (0.0f64, 0.0f64);
+        for ((row, multiplier), out) in self.tied.rows.iter().zip(multipliers).zip(&mut gaps) {
+            for &(i, b) in &row.terms {
+                force[i] -= b * multiplier;
+                *out -= b * u[i];
+                motion = motion.max((b * u[i]).abs());
+            }
+            gap = gap.max(out.abs());
+        }
+        let (mut largest, mut size) = (0.0f64, 0.0f64);
+        for (&i, s) in self.free.iter().zip(&self.scale) {
+            largest = if force[i].is_nan() { f64::NAN } else { largest.max((force[i] * s).abs()) };
+            // K_ii u_i stands for the forces that balance there.
+            let balanced = if *s > 0.0 { (u[i] / s).abs() } else { 0.0 };
+            size = size.max(balanced).max((load[i] * s).abs());
+        }
+        let relative = |part: f64, whole: f64| if whole > 0.0 { part / whole } else { part };
+        (force, gaps, relative(largest, size).max(relative(gap, motion)))
+    }
+}

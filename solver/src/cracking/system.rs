@@ -1,0 +1,207 @@
+//! Equilibrium at load factor one of a model whose bonds lose stiffness.
+//!
+//! A factorised base `K₀` (with its ties) and a low-rank update for what was lost since: bond modes V with losses D,
+//!
+//! `(K₀ − V D Vᵀ)⁻¹ = K₀⁻¹ + Z (D⁻¹ − VᵀZ)⁻¹ Zᵀ`, `Z = K₀⁻¹V` (Woodbury 1950),
+//!
+//! so `u = u₀ + Z (D⁻¹ − VᵀZ)⁻¹ Vᵀu₀` — with Vᵀ on all unknowns, prescribed ones included, also where bonds at supports are lost.
+//! The true residual is checked and refined on; where that fails, and after [`Updating::most`] modes, a new base is factorised.
+
+use super::base::{Base, elements};
+use super::modes::Mode;
+use super::pieces::Pieces;
+use crate::error::Result;
+use crate::model::{Model, Numbering, Part};
+use crate::solve::mechanism;
+use crate::solve::sparse::Triplets;
+use crate::work::Work;
+
+/// How the equilibrium is followed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Updating {
+    /// Largest number of modes (three per bond in the plane, six in the solid) before the matrix is factorised anew; zero factorises at
+    /// every event.
+    pub most: usize,
+}
+
+impl Default for Updating {
+    /// About where both cost the same on plane networks of some thousand bonds.
+    fn default() -> Self {
+        Updating { most: 90 }
+    }
+}
+
+/// Whether the bodies still hold.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Holding {
+    Held,
+    /// What carries the load is no longer held; in words.
+    Separated(String),
+}
+
+/// A bond that loses stiffness.
+pub(super) struct Weakened {
+    pub part: usize,
+    pub bond: usize,
+    /// Weight so far and from now on.
+    pub before: f64,
+    pub after: f64,
+    /// Modes of the bond on all unknowns, with the weight so far.
+    pub modes: Vec<Mode>,
+}
+
+impl Weakened {
+    /// Part and index.
+    pub fn bond(&self) -> (usize, usize) {
+        (self.part, self.bond)
+    }
+}
+
+/// The system.
+pub(super) struct System {
+    /// The model; weights of bonds are what is left.
+    pub model: Model,
+    pub numbering: Numbering,
+    /// All unknowns at load factor one; zero for points that were torn off.
+    pub u: Vec<f64>,
+    pub load: Vec<f64>,
+    pub prescribed: Vec<Option<f64>>,
+    pub work: Work,
+    pub notes: Vec<String>,
+    /// Events that were followed by an update alone.
+    pub updates: u64,
+    pieces: Pieces,
+    elements: Triplets,
+    updating: Updating,
+    base: Base,
+}
+
+impl System {
+    /// # Errors
+    /// As [`statics::solve`].
+    pub fn new(model: &Model, updating: Updating) -> Result<Self> {
+        crate::check::model(model)?;
+        let numbering = Numbering::new(model);
+        let n = numbering.len();
+        let mut work = Work::default();
+        let mut prescribed = vec![None; n];
+        model.supports.iter().for_each(|s| {
+            prescribed[numbering.unknown(s.part, s.point, s.component)] = Some(s.value);
+        });
+        let mut load = vec![0.0; n];
+        model.loads.iter().for_each(|l| load[numbering.unknown(l.part, l.point, l.component)] += l.value);
+        let elements = elements(model, &numbering, &mut work)?;
+        let (base, softest) = Base::new(model, &numbering, &elements, &load, &prescribed, &mut work)?;
+        mechanism::refuse(model, &numbering, &base.free, softest)?;
+        let pieces = Pieces::new(model, &numbering, &base.tied.rows);
+        let notes = base.tied.notes.clone();
+        let mut system = System {
+            model: model.clone(),
+            numbering,
+            u: Vec::new(),
+            load,
+            prescribed,
+            work,
+            notes,
+            updates: 0,
+            pieces,
+            elements,
+            updating,
+            base,
+        };
+        system.u = system.base.solution[..n].to_vec();
+        Ok(system)
+    }
+
+    /// `K u` on all unknowns, with what is left of the bonds.
+    pub fn internal(&self) -> Vec<f64> {
+        self.base.internal(&self.u)
+    }
+
+    /// Points that were torn off, as (part, point), in the order they were.
+    pub fn torn_off(&self) -> &[(usize, usize)] {
+        self.pieces.torn_off()
+    }
+
+    /// Sets what is left of some bonds and finds the new equilibrium.
+    ///
+    /// # Errors
+    /// Solves that fail.
+    pub fn weaken(&mut self, bonds: &[Weakened]) -> Result<Holding> {
+        let mut broken = false;
+        for &Weakened { part, bond, after, .. } in bonds {
+            if let Part::Discrete { network, .. } = &mut self.model.parts[part] {
+                network.bonds.weight[bond] = after;
+                broken |= after == 0.0;
+            }
+        }
+        let mut released = false;
+        if broken {
+            let loaded = |i: usize| self.load[i] != 0.0 || self.prescribed[i].is_some_and(|v| v != 0.0);
+            let found = self.pieces.release(&self.model, &self.numbering, &self.prescribed, loaded);
+            match found {
+                Err(what) => return Ok(Holding::Separated(what)),
+                Ok(fixed) => {
+                    released = !fixed.is_empty();
+                    fixed.into_iter().for_each(|i| self.prescribed[i] = Some(0.0));
+                }
+            }
+        }
+        if !released && self.try_update(bonds)? {
+            self.updates += 1;
+            return Ok(Holding::Held);
+        }
+        self.refactorise()
+    }
+
+    /// Follows by an update; `false` where a new base is called for.
+    fn try_update(&mut self, bonds: &[Weakened]) -> Result<bool> {
+        // Further teeth of bonds that are in the update already cost nothing new.
+        let new: usize = bonds.iter().filter(|b| !self.base.has(b.bond())).map(|b| b.modes.len()).sum();
+        if self.base.updated_modes() + new > self.updating.most {
+            return Ok(false);
+        }
+        for weakened in bonds {
+            if self.base.has(weakened.bond()) {
+                self.base.lose(weakened);
+            } else {
+                self.base.add(weakened, &mut self.work)?;
+            }
+        }
+        if !self.base.factorise_update() {
+            return Ok(false);
+        }
+        let solution = self.base.updated_solution(&self.load, &mut self.work)?;
+        let found = solution.is_some();
+        if let Some(solution) = solution {
+            self.u = solution;
+        }
+        Ok(found)
+    }
+
+    /// Factorises what is left; pieces that turn out to move freely go too.
+    fn refactorise(&mut self) -> Result<Holding> {
+        loop {
+            let (base, softest) = Base::new(
+                &self.model,
+                &self.numbering,
+                &self.elements,
+                &self.load,
+                &self.prescribed,
+                &mut self.work,
+            )?;
+            self.base = base;
+            if softest.1 > mechanism::FREE {
+                self.u = self.base.solution[..self.numbering.len()].to_vec();
+                return Ok(Holding::Held);
+            }
+            let mut motion = vec![0.0; self.numbering.len()];
+            self.base.free.iter().zip(&softest.0).for_each(|(&i, &v)| motion[i] = v);
+            let loaded = |i: usize| self.load[i] != 0.0 || self.prescribed[i].is_some_and(|v| v != 0.0);
+            match self.pieces.release_moving(&self.model, &self.numbering, &motion, loaded) {
+                Err(what) => return Ok(Holding::Separated(what)),
+                Ok(fixed) => fixed.into_iter().for_each(|i| self.prescribed[i] = Some(0.0)),
+            }
+        }
+    }
+}
