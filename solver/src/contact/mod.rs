@@ -1,6 +1,6 @@
 //! Contact of particles that have lost a bond: with each other and with any other particle.
 //!
-//! A [`search`] lists pairs that are close, a [`law`] gives their forces. Pairs that are still bonded do not touch; a broken pair
+//! A search lists pairs that are close, a [`law`] gives their forces. Pairs that are still bonded do not touch; a broken pair
 //! that closes presses, but does not heal. Particles that overlap in the reference state (as bonded ones may) touch at their
 //! reference distance: breaking a bond makes no force by itself.
 //!
