@@ -383,4 +383,32 @@ pub struct Picture {
     pub supports: Vec<[f64; 2]>,
     /// Loads as start point and direction (unit vector).
     pub loads: Vec<[[f64; 2]; 2]>,
+    /// The bodies, for their names and dimensions.
+    #[serde(default)]
+    pub bodies: Vec<BodyOutline>,
+    /// The coupled faces.
+    #[serde(default)]
+    pub ties: Vec<TiedFace>,
+}
+
+/// A body of a picture.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct BodyOutline {
+    /// Name as in the scene file.
+    pub name: String,
+    /// `FE` or `DE`.
+    pub method: String,
+    /// Lower left and upper right corner of the box around its nodes or particles, undeformed, in metres.
+    pub extent: [[f64; 2]; 2],
+}
+
+/// A coupled face of a picture.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct TiedFace {
+    /// Name of the tie as in the scene file.
+    pub name: String,
+    /// How it is tied, e.g. `mortar`.
+    pub method: String,
+    /// Nodes or particles of its first face, in order along it, undeformed, in metres.
+    pub line: Vec<[f64; 2]>,
 }

@@ -20,4 +20,5 @@ pub mod results;
 pub mod schema;
 pub mod statistics;
 pub mod terminal;
+pub mod validation;
 pub mod verdict;

@@ -147,7 +147,7 @@ pub struct CurveResult {
 }
 
 /// A judged claim.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ClaimResult {
     /// Id of the claim.
     pub id: String,

@@ -12,6 +12,8 @@ pub mod curves;
 pub mod family;
 mod ink;
 pub mod picture;
+mod shapes;
+pub mod sketch;
 mod ticks;
 
 pub use ink::Ink;

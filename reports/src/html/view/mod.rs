@@ -45,7 +45,7 @@ impl Page {
         let budgets = self.budgets.iter().map(|b| &b.figure);
         let totals = self.bias.iter().chain(budgets).chain(&self.costs).chain(&self.second_costs);
         let cases = self.cases.iter().flat_map(|c| {
-            let figures = c.pictures.iter().chain(&c.figures);
+            let figures = c.sketches.iter().chain(&c.pictures).chain(&c.figures);
             figures.map(|figure| (format!("{}-{}", c.judged.id, slug(&figure.title)), figure))
         });
         claims.chain(totals.map(|figure| (slug(&figure.title), figure))).chain(cases)
