@@ -3,6 +3,8 @@
 //! A [`CaseResult`] holds what was *measured* and what it is to be compared *with*; it holds no
 //! judgement. `result.json` in the folder of a case is this type.
 
+use crate::map::StabilityMap;
+use crate::margin::Margin;
 use schemars::JsonSchema;
 use seam_solver::work::Work;
 use serde::{Deserialize, Serialize};
@@ -53,6 +55,12 @@ pub struct CaseResult {
     /// Elements that became particles on the way, in order.
     #[serde(default)]
     pub switches: Vec<SwitchRecord>,
+    /// How far the hard cases are from breaking.
+    #[serde(default)]
+    pub margins: Vec<Margin>,
+    /// Where stability ends over two parameters.
+    #[serde(default)]
+    pub maps: Vec<StabilityMap>,
     /// Counted work of all runs of the case.
     pub work: Work,
     /// Wall time of the case, in seconds. Not deterministic.

@@ -2,6 +2,7 @@
 
 mod claim;
 mod prose;
+mod stability;
 mod view;
 
 use crate::plots::Figure;
@@ -14,6 +15,7 @@ use std::path::Path;
 const PAGE: &str = include_str!("../../templates/report.html");
 const CLAIM: &str = include_str!("../../templates/claim.html");
 const CASE: &str = include_str!("../../templates/case.html");
+const STABILITY: &str = include_str!("../../templates/stability.html");
 const MACROS: &str = include_str!("../../templates/macros.html");
 const STYLE: &str = include_str!("../../templates/style.css");
 const SCRIPT: &str = include_str!("../../templates/script.js");
@@ -46,9 +48,13 @@ fn standalone(figure: &Figure) -> String {
 pub fn page(results: &Results, cases: &[CaseResult]) -> Result<String, ResultsError> {
     let fail = |e: minijinja::Error| ResultsError::View { view: "report.html", message: format!("{e:#}") };
     let mut templates = Environment::new();
-    for (name, text) in
-        [("report.html", PAGE), ("claim.html", CLAIM), ("case.html", CASE), ("macros.html", MACROS)]
-    {
+    for (name, text) in [
+        ("report.html", PAGE),
+        ("claim.html", CLAIM),
+        ("case.html", CASE),
+        ("stability.html", STABILITY),
+        ("macros.html", MACROS),
+    ] {
         templates.add_template(name, text).map_err(fail)?;
     }
     let page = templates.get_template("report.html").map_err(fail)?;

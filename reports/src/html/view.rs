@@ -2,6 +2,7 @@
 
 use super::claim::{Claim, claim};
 use super::prose;
+use super::stability::{self, Stability};
 use crate::exit::Exit;
 use crate::failure::{Failure, failures, interval};
 use crate::format::{self, percent, share};
@@ -23,6 +24,7 @@ pub(super) struct Page {
     bias: Option<Figure>,
     budgets: Vec<BudgetView>,
     costs: Vec<Figure>,
+    stability: Option<Stability>,
     cases: Vec<Case>,
     provenance: Provenance,
     timings: Vec<(String, String)>,
@@ -89,7 +91,8 @@ impl Page {
             .iter()
             .chain(self.budgets.iter().map(|b| &b.figure))
             .chain(&self.costs)
-            .chain(&self.second_costs);
+            .chain(&self.second_costs)
+            .chain(self.stability.iter().flat_map(Stability::maps));
         let cases = self.cases.iter().flat_map(|c| {
             c.pictures
                 .iter()
@@ -131,6 +134,7 @@ pub(super) fn page(results: &Results, cases: &[CaseResult]) -> Page {
         bias: plots::bias::scatter(results),
         budgets: shown().flat_map(|c| &c.budgets).filter_map(budget).collect(),
         costs: costs(plots::cost::Cost::Work),
+        stability: stability::section(results, cases),
         cases: results.cases.iter().map(|c| case(c, measured(&c.id))).collect(),
         provenance: results.provenance.clone(),
         timings: results.cases.iter().map(|c| (c.id.clone(), seconds(c.seconds))).collect(),
