@@ -93,6 +93,11 @@ impl SceneFile {
         &self.source.file
     }
 
+    /// Whether it was read from disk, and not from the catalogue.
+    pub fn on_disk(&self) -> bool {
+        matches!(self.folder, Folder::Disk(_))
+    }
+
     /// Overrides that were applied, as `key=value`.
     pub fn overrides(&self) -> &[String] {
         &self.source.overrides

@@ -48,6 +48,10 @@ pub fn check(scene: &Scene, values: &Values) -> Checked {
         let key = format!("costs.{name}");
         known(&cost.quantity, "quantity", scene.quantities.keys(), &format!("{key}.quantity"))?;
         levels(&cost.levels, 1, &format!("{key}.levels"))?;
+        if let Some(reference) = &cost.reference {
+            variants(scene, &reference.variants, &format!("{key}.reference.variants"))?;
+            levels(&reference.levels, 1, &format!("{key}.reference.levels"))?;
+        }
         for (setting, names) in &cost.settings {
             variants(scene, names, &format!("{key}.settings.{setting}"))?;
         }

@@ -212,6 +212,9 @@ pub struct CostDeclaration {
     pub tiers: Vec<Tier>,
     /// Name of the quantity whose relative error counts.
     pub quantity: String,
+    /// One reference for all settings; each setting's own `[reference]` model if not given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub reference: Option<ReferenceModel>,
     /// Resolutions.
     pub levels: Levels,
     /// Settings: legend and variants.

@@ -1,15 +1,26 @@
 //! Which effects a scene simulates, and why the others are left out.
 
-use super::evaluate::{Course, Solved};
-use super::inertia;
+use super::evaluate::{self, Course, Solved, Tally};
+use super::{head, inertia};
+use crate::error::Result;
 use crate::file::SceneFile;
-use crate::result::EffectUse;
+use crate::result::{CaseResult, EffectUse};
+use crate::scene::Tier;
 use crate::scene::dynamics::{Rotations, Stepping};
 use seam_solver::coupling::assemble;
 use seam_solver::model::Part;
 
 /// Rotations beyond this (rad) are no longer small: `1 − cos θ` is half a percent.
 const LARGE_ROTATION: f64 = 0.1;
+
+/// Runs a scene and says which effects it simulated.
+///
+/// # Errors
+/// As running it.
+pub fn study(file: &SceneFile, tier: Tier) -> Result<CaseResult> {
+    let solved = evaluate::solve(file, &Tally::default())?;
+    Ok(CaseResult { effects: used(file, &solved), ..head(file, tier) })
+}
 
 /// All effects, on or off.
 pub fn used(file: &SceneFile, solved: &Solved) -> Vec<EffectUse> {

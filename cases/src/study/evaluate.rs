@@ -16,6 +16,7 @@ use crate::scene::quantity::{Norm, Quantity, Zone};
 use seam_solver::model::Numbering;
 use seam_solver::simulation::{Energies, Outcome};
 use seam_solver::solve::statics::{self, Solution};
+use seam_solver::stage::{Stage, timed};
 use seam_solver::work::Work;
 use std::collections::BTreeMap;
 use std::sync::Mutex;
@@ -180,6 +181,16 @@ fn go(file: &SceneFile, dynamics: &Dynamics, mut built: Built, start: Instant) -
 
 /// Reads those probes off a state that a state alone can answer.
 fn read(
+    file: &SceneFile,
+    built: &Built,
+    solution: &Solution,
+    supports: &Supports,
+    wanted: impl Fn(&Probe) -> bool,
+) -> Result<BTreeMap<String, Reading>> {
+    timed(Stage::Output, || read_all(file, built, solution, supports, wanted))
+}
+
+fn read_all(
     file: &SceneFile,
     built: &Built,
     solution: &Solution,
