@@ -52,6 +52,7 @@ impl SceneFile {
         };
         let mut scene = source.parse()?;
         scene.drop_disabled();
+        scene.apply_effects().map_err(|fault| source.error(fault))?;
         let values = scene.values().map_err(|fault| source.error(fault))?;
         check::check(&scene, &values).map_err(|fault| source.error(fault))?;
         Ok(Self { scene, values, folder, source })

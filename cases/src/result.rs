@@ -7,7 +7,7 @@ mod cost;
 mod effects;
 
 pub use cost::{CostDiagram, CostPoint, CostSetting};
-pub use effects::EffectUse;
+pub use effects::{Ablation, AblationChange, AblationRun, EffectUse, Expected, Indicator};
 use schemars::JsonSchema;
 use seam_solver::work::Work;
 use serde::{Deserialize, Serialize};
@@ -53,6 +53,9 @@ pub struct CaseResult {
     pub budgets: Vec<Budget>,
     /// Error against cost.
     pub costs: Vec<CostDiagram>,
+    /// Effects on and off.
+    #[serde(default)]
+    pub ablations: Vec<Ablation>,
     /// Bodies drawn from the model.
     pub pictures: Vec<Picture>,
     /// Elements that became particles on the way, in order.
@@ -72,6 +75,7 @@ impl CaseResult {
         replace(&mut self.quantities, study.quantities, |q| &q.id);
         replace(&mut self.curves, study.curves, |c| &c.id);
         replace(&mut self.costs, study.costs, |c| &c.id);
+        replace(&mut self.ablations, study.ablations, |a| &a.id);
         replace(&mut self.pictures, study.pictures, |p| &p.id);
         self.notes.extend(study.notes);
     }

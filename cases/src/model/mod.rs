@@ -8,6 +8,8 @@ mod place;
 mod switches;
 pub mod time;
 
+pub use switches::left_out as switches_left_out;
+
 use crate::error::{Error, Fault, Result};
 use crate::expression::Values;
 use crate::file::SceneFile;
