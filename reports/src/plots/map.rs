@@ -1,7 +1,7 @@
 //! Where stability ends over two parameters, each run a square.
 
 use super::chart::{Axis, Chart, HEIGHT, LEFT, Layer};
-use super::{Figure, Ink, LegendEntry};
+use super::{Figure, Ink, LegendEntry, csv_line};
 use crate::format::count;
 use seam_cases::map::{Cell, StabilityMap};
 
@@ -40,7 +40,18 @@ pub fn squares(map: &StabilityMap) -> Option<Figure> {
     };
     let description = format!("{} by {} runs. {note}", map.x.len(), map.y.len());
     let chart = Chart { title: map.title.clone(), description, x, y, layers, height: HEIGHT, left: LEFT };
-    Some(Figure { title: map.title.clone(), svg: chart.svg(), legend, note })
+    Some(chart.figure_of(legend, note, csv(map)))
+}
+
+/// One line per run.
+fn csv(map: &StabilityMap) -> String {
+    let mut text = csv_line(&[&map.x_label, &map.y_label, "outcome"]);
+    for (y, cells) in map.y.iter().zip(&map.cells) {
+        for (x, cell) in map.x.iter().zip(cells) {
+            text += &csv_line(&[&format!("{x:?}"), &format!("{y:?}"), &format!("{cell:?}").to_lowercase()]);
+        }
+    }
+    text
 }
 
 /// Borders of the squares around positive ascending values: half-way in the logarithm, the outer ones as far out.
