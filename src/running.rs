@@ -1,6 +1,6 @@
 //! Running cases side by side, each into its own folder.
 
-use crate::args::{Filter, Running, Tier};
+use crate::args::{Choice, Running, Tier};
 use crate::progress::Progress;
 use crate::{message, results, select};
 use anyhow::{Result, anyhow, bail};
@@ -21,12 +21,12 @@ use std::path::Path;
 pub fn selected(
     words: &[String],
     overrides: &[String],
-    (filter, running, out): (&Filter, &Running, &Path),
+    (choice, running, out): (&Choice, &Running, &Path),
     recorded: &Recorded,
 ) -> Result<Vec<SceneFile>> {
     let mut files = scenes(words, overrides, running.tier)?;
-    select::keep(&mut files, filter)?;
-    if running.failed {
+    select::keep(&mut files, &choice.filter)?;
+    if choice.failed {
         files.retain(|file| !is_green(file, out, running.tier, recorded));
     }
     Ok(files)

@@ -5,6 +5,7 @@ use crate::counted::{changes, counters};
 use crate::exit::Exit;
 use crate::format::{percent, share, with_unit};
 use crate::loosened::{loosened, width};
+use crate::margins::MarginResult;
 use crate::results::{CaseJudgement, ClaimResult, QuantityResult, Results};
 use std::collections::BTreeMap;
 
@@ -110,6 +111,17 @@ fn case(was: &CaseJudgement, now: &CaseJudgement, all: &mut Vec<Change>) {
         let Some(was) = was.quantities.iter().find(|was| was.id == q.id) else { continue };
         all.extend(quantity(was, q).map(|(kind, was, now)| Change { kind, place: place(&q.id), was, now }));
     }
+    for m in &now.margins {
+        let Some(was) = was.margins.iter().find(|was| was.id == m.id) else { continue };
+        all.extend(margin(was, m).map(|(kind, was, now)| Change { kind, place: place(&m.id), was, now }));
+    }
+    let lost = was.margins.iter().filter(|was| !now.margins.iter().any(|m| m.id == was.id));
+    all.extend(lost.map(|was| Change {
+        kind: Kind::Lost,
+        place: place(&was.id),
+        was: say_margin(was),
+        now: "gone".to_owned(),
+    }));
     for was in &was.claims {
         let claim = now.claims.iter().find(|now| now.id == was.id);
         all.extend(of_claim(was, claim).map(|(kind, now)| Change {
@@ -150,6 +162,25 @@ fn quantity(was: &QuantityResult, now: &QuantityResult) -> Option<(Kind, String,
         },
     };
     Some((kind, say(was), say(now)))
+}
+
+/// A margin changes where it differs by more than the width of its search.
+fn margin(was: &MarginResult, now: &MarginResult) -> Option<(Kind, String, String)> {
+    let (Some(before), Some(after)) = (was.value, now.value) else {
+        return was.value.map(|_| (Kind::Lost, say_margin(was), say_margin(now)));
+    };
+    let width = was.tolerance.max(now.tolerance) * before.abs();
+    let kind = match after - before {
+        change if change < -width => Kind::Closer,
+        change if change > width => Kind::Better,
+        _ => return None,
+    };
+    Some((kind, say_margin(was), say_margin(now)))
+}
+
+fn say_margin(m: &MarginResult) -> String {
+    let value = m.value.map_or_else(|| "not measured".to_owned(), |v| with_unit(v, &m.unit));
+    format!("margin {value}, needed {}", with_unit(m.needed, &m.unit))
 }
 
 fn of_claim(was: &ClaimResult, now: Option<&ClaimResult>) -> Option<(Kind, String)> {

@@ -32,6 +32,7 @@ pub fn differences(old: &Recorded, results: &Results) -> (Vec<Difference>, usize
         tolerances(old, &new, case, &mut all);
         claims(old, case, &mut all);
         rounding += values(old, &new, case, &mut all);
+        margins(old, case, &mut all);
         work(old, &new, case, &mut all);
     }
     all.sort_by_key(|d| (d.kind != "loosened", d.kind != "verdict"));
@@ -101,6 +102,16 @@ fn values(old: &Recorded, new: &Recorded, case: &CaseJudgement, all: &mut Vec<Di
         row("gone", id, value(was), "not measured any more".to_owned());
     }
     rounding
+}
+
+fn margins(old: &Recorded, case: &CaseJudgement, all: &mut Vec<Difference>) {
+    for m in &case.margins {
+        let was = old.margin(&case.tier, &case.id, &m.id);
+        if let Some(now) = m.value.filter(|now| was != Some(*now)) {
+            let was = was.map_or_else(|| "unrecorded".to_owned(), value);
+            all.push(Difference { kind: "margin", place: place(case, &m.id), was, now: value(now) });
+        }
+    }
 }
 
 fn work(old: &Recorded, new: &Recorded, case: &CaseJudgement, all: &mut Vec<Difference>) {

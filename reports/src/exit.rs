@@ -69,18 +69,23 @@ impl Results {
 impl CaseJudgement {
     /// Whether something could not be measured, or nothing was compared at all.
     pub fn unmeasured(&self) -> bool {
-        let nothing = self.quantities.is_empty() && self.claims.is_empty() && self.curves.is_empty();
+        let nothing = self.quantities.is_empty()
+            && self.claims.is_empty()
+            && self.curves.is_empty()
+            && self.margins.is_empty();
         nothing
             || self.quantities.iter().any(|q| q.value.is_none() || q.verdict == Some(Verdict::Undetermined))
             || self.curves.iter().any(|c| c.verdict == Verdict::Undetermined)
+            || self.margins.iter().any(|m| m.verdict == Verdict::Undetermined)
             || self.claims.iter().any(|c| c.unmeasured.is_some())
     }
 
-    /// Whether a number, a curve or a claim failed, one that should have failed did not, or a tolerance is
+    /// Whether a number, a curve, a margin or a claim failed, one that should have failed did not, or a tolerance is
     /// looser than recorded.
     pub fn failed(&self) -> bool {
         self.quantities.iter().any(|q| q.failed() || q.passes_again())
             || self.curves.iter().any(|c| c.verdict == Verdict::Fail)
+            || self.margins.iter().any(|m| m.verdict == Verdict::Fail)
             || self.claims.iter().any(ClaimResult::failed)
             || !self.loosened.is_empty()
             || !self.expected_in_vain.is_empty()

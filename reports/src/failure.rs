@@ -3,6 +3,7 @@
 use crate::counted::Counter;
 use crate::format::{self, percent, share, with_unit};
 use crate::loosened::Loosened;
+use crate::margins::MarginResult;
 use crate::record::RecordState;
 use crate::results::{CaseJudgement, ClaimResult, CurveResult, QuantityResult, Results};
 use crate::verdict::{ClaimVerdict, Verdict};
@@ -46,9 +47,10 @@ pub fn of_case(case: &CaseJudgement) -> Vec<Failure> {
     let quantities = case.quantities.iter().filter_map(|q| of_quantity(case, q));
     let curves = case.curves.iter().filter_map(|c| of_curve(case, c));
     let claims = case.claims.iter().filter_map(|c| of_claim(case, c));
+    let margins = case.margins.iter().filter_map(|m| of_margin(case, m));
     let in_vain = case.expected_in_vain.iter().map(|id| of_expected(case, id));
-    let all: Vec<Failure> =
-        quantities.chain(curves).chain(claims).chain(in_vain).chain(of_cost(case)).collect();
+    let judged = quantities.chain(curves).chain(margins).chain(claims);
+    let all: Vec<Failure> = judged.chain(in_vain).chain(of_cost(case)).collect();
     if all.is_empty() && case.unmeasured() {
         return vec![of_empty(case)];
     }
@@ -120,6 +122,32 @@ fn of_curve(case: &CaseJudgement, c: &CurveResult) -> Option<Failure> {
         bound: format!("{} of the reference's stations", percent(crate::compare::LEAST_COVERAGE)),
         meaning: c.why.clone(),
         ..failure(case, class, &c.plot)
+    })
+}
+
+fn of_margin(case: &CaseJudgement, m: &MarginResult) -> Option<Failure> {
+    let class = match m.verdict {
+        Verdict::Pass => return None,
+        Verdict::Fail => FAILED,
+        Verdict::Undetermined => NOT_MEASURED,
+    };
+    let (bound, meaning) = match m.recorded {
+        _ if m.value.is_none() => ("a finite margin".to_owned(), "nothing was compared".to_owned()),
+        Some(recorded) if !m.too_small() => (
+            format!("{} ± {}, recorded", with_unit(recorded, &m.unit), percent(m.tolerance)),
+            "the margin has changed: find out why before it is accepted".to_owned(),
+        ),
+        _ => (
+            format!("{} has to pass: {}", with_unit(m.needed, &m.unit), m.criterion),
+            "the hard case does not pass where it has to".to_owned(),
+        ),
+    };
+    let value = m.value.map_or("no finite number".to_owned(), |v| with_unit(v, &m.unit));
+    Some(Failure {
+        measured: format!("{value} ({}, {})", m.axis, m.label),
+        bound,
+        meaning,
+        ..failure(case, class, &m.id)
     })
 }
 

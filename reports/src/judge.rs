@@ -3,6 +3,7 @@
 use crate::claims;
 use crate::compare::{CurveComparison, LEAST_COVERAGE, Tolerance, compare_curves, headroom, signed_error};
 use crate::loosened;
+use crate::margins;
 use crate::record::{self, Recorded};
 use crate::results::{CaseJudgement, ClaimResult, CurveResult, Provenance, QuantityResult, Results, SCHEMA};
 use crate::statistics::convergence::fitted_order;
@@ -45,6 +46,11 @@ pub fn judge_case(case: &CaseResult, recorded: &Recorded) -> CaseJudgement {
         quantities,
         curves: case.curves.iter().flat_map(judge_curves).collect(),
         claims: claims_in_order(case, recorded),
+        margins: case
+            .margins
+            .iter()
+            .map(|m| margins::judge(m, recorded.margin(&case.tier, &case.id, &m.id)))
+            .collect(),
         work: case.work,
         recorded_work: work.map(|w| w.total),
         recorded_counters: work.map_or_else(Default::default, |w| w.counters.clone()),

@@ -4,6 +4,7 @@
 //! of every view: [`results::Results::write`] (`results.json`), [`terminal::table`], [`csv`],
 //! [`markdown`] and [`html`].
 
+pub mod activity;
 pub mod baseline;
 pub mod bless;
 pub mod claims;
@@ -17,6 +18,7 @@ pub mod html;
 pub mod judge;
 pub mod junit;
 pub mod loosened;
+pub mod margins;
 pub mod markdown;
 pub mod plots;
 pub mod record;
@@ -24,4 +26,5 @@ pub mod results;
 pub mod schema;
 pub mod statistics;
 pub mod terminal;
+pub mod validation;
 pub mod verdict;

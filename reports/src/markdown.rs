@@ -117,6 +117,6 @@ fn expected(results: &Results) -> String {
 }
 
 /// Text that neither ends a table cell nor starts markup.
-fn escape(text: &str) -> String {
+pub(crate) fn escape(text: &str) -> String {
     text.replace('\\', "\\\\").replace('|', "\\|").replace('<', "&lt;").replace('*', "\\*").replace('\n', " ")
 }

@@ -12,3 +12,17 @@ pub struct Filter {
     #[arg(long = "effect", value_name = "EFFECT")]
     pub effects: Vec<String>,
 }
+
+/// Which cases are run.
+#[derive(Debug, Clone, Default, Args)]
+pub struct Choice {
+    /// What they are about
+    #[command(flatten)]
+    pub filter: Filter,
+    /// Run only what has no current result, or one that keeps the gate from being green
+    #[arg(long, conflicts_with = "resume")]
+    pub failed: bool,
+    /// Print what would run and what it needs, and run nothing
+    #[arg(long)]
+    pub dry_run: bool,
+}

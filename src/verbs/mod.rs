@@ -13,6 +13,7 @@ mod run;
 mod schema;
 mod selftest;
 mod show;
+mod study;
 mod validate;
 
 pub use bless::bless;
@@ -28,4 +29,5 @@ pub use run::run;
 pub use schema::schema;
 pub use selftest::selftest;
 pub use show::show;
+pub use study::study;
 pub use validate::validate;

@@ -10,9 +10,9 @@ use seam_reports::exit::Exit;
 /// Runs cases without judging them.
 pub fn run(words: &Run) -> Result<Exit> {
     let recorded = results::recorded(&Records { recorded: None })?;
-    let how = (&words.filter, &words.running, words.out.as_path());
+    let how = (&words.choice, &words.running, words.out.as_path());
     let files = running::selected(&words.cases, &words.overrides, how, &recorded)?;
-    if words.running.dry_run {
+    if words.choice.dry_run {
         print(&plan(&files))?;
         return Ok(Exit::Pass);
     }

@@ -3,7 +3,7 @@
 use super::check::{judge_into, print, style};
 use super::report;
 use super::run::plan;
-use crate::args::{Running, Validate};
+use crate::args::{Choice, Validate};
 use crate::results::Unmeasured;
 use crate::running::Failed;
 use crate::{message, references, results, running};
@@ -17,24 +17,17 @@ use seam_reports::terminal;
 pub fn validate(words: &Validate) -> Result<Exit> {
     let references = references::verified(&words.references)?;
     let recorded = results::recorded(&words.records)?;
-    let how = (&words.filter, &words.running, words.out.as_path());
+    let how = (&words.choice, &words.running, words.out.as_path());
     let files = running::selected(&[], &[], how, &recorded)?;
-    if words.running.dry_run {
+    if words.choice.dry_run {
         print(&plan(&files))?;
         return Ok(Exit::Pass);
     }
     let failed = running::run(&files, &words.out, &words.running)?;
     // Only what this run is about: other results may lie in the folder. With `--failed` those that are green
     // already belong to it too.
-    let files = match words.running.failed {
-        true => running::selected(
-            &[],
-            &[],
-            (&words.filter, &Running { failed: false, ..words.running }, how.2),
-            &recorded,
-        )?,
-        false => files,
-    };
+    let all = Choice { failed: false, ..words.choice.clone() };
+    let files = running::selected(&[], &[], (&all, &words.running, &words.out), &recorded)?;
     let has_run = |file: &&SceneFile| failed.iter().all(|f| f.id != file.scene.id);
     let read = |file: &SceneFile| results::read(&words.out.join(&file.scene.id).join(RESULT));
     let cases = files.iter().filter(has_run).map(read).collect::<Result<Vec<_>>>()?;
