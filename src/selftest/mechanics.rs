@@ -87,12 +87,12 @@ pub const DEFECTS: &[Seeded] = &[
         Defect::Model(pointwise),
         "tension-mortar",
     ),
-    seeded(
+    refused(
         "swap-interface-nodes",
         "two particles of an interface change places",
         PATCH,
         Defect::Model(swap_interface),
-        "tension-nested",
+        "constraint 'tie 'left'",
     ),
     seeded(
         "wrong-modulus",

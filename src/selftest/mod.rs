@@ -87,7 +87,7 @@ pub struct Seeded {
     /// The exit code that it must lead to.
     exit: Exit,
     /// The check that must catch it: part of its place or of its message.
-    by: &'static str,
+    pub by: &'static str,
 }
 
 /// How a defect showed.

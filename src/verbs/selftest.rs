@@ -36,9 +36,14 @@ fn line(shown: &Shown, width: usize) -> String {
         n => format!(" +{}", n - 1),
     };
     let room = 80usize.saturating_sub(width + 13 + more.len()).max(24);
+    // Of a long message, what is expected in it.
+    let by = match by.find(shown.seeded.by).filter(|at| *at > 0 && by.chars().count() > room) {
+        Some(at) => format!("… {}", &by[at..]),
+        None => by.to_owned(),
+    };
     let by: String = match by.chars().count() > room {
         true => by.chars().take(room - 1).chain(['…']).collect(),
-        false => by.to_owned(),
+        false => by,
     };
     format!("{:<width$}  {state} {exit}  {by}{more}\n", shown.seeded.name)
 }
