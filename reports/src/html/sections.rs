@@ -34,6 +34,7 @@ sections! {
     "bias": "Bias and scatter",
     "budget": "Error budget",
     "cost": "What accuracy costs",
+    "effects": "Effects on and off",
     "cases": "Cases",
     "provenance": "Provenance",
     "machine": "Machine and timings",
