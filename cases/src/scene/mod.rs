@@ -130,6 +130,9 @@ pub struct Scene {
     /// Work–precision diagrams.
     #[serde(default)]
     pub costs: BTreeMap<String, study::CostDeclaration>,
+    /// How cost grows with size.
+    #[serde(default)]
+    pub growth: BTreeMap<String, study::GrowthDeclaration>,
     /// Effects that are switched on and off.
     #[serde(default)]
     pub ablations: BTreeMap<String, study::AblationDeclaration>,

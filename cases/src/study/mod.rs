@@ -7,6 +7,7 @@ mod digest;
 pub mod effects;
 mod evaluate;
 mod family;
+mod growth;
 mod kept;
 mod picture;
 mod plots;
@@ -60,6 +61,7 @@ pub fn run(file: &SceneFile, tier: Tier) -> Result<Run> {
     result.families = family::all(&study)?;
     result.budgets = budget::all(&study)?;
     result.costs = cost::all(&study)?;
+    result.growths = growth::all(&study)?;
     result.ablations = effects::declared(&study)?;
     result.pictures = vec![picture::deformed(file, &solved)];
     result.switches = solved.course.as_ref().map_or_else(Vec::new, |course| course.switches.records());

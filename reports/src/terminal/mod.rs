@@ -2,6 +2,7 @@
 
 mod failures;
 mod margins;
+pub(crate) mod studies;
 mod style;
 
 pub use style::Style;
@@ -29,6 +30,7 @@ pub fn table(results: &Results, style: Style) -> String {
         results.cases.iter().for_each(|c| out.push_str(&case(c, style)));
     }
     out.push_str(&margins::table(results, style));
+    out.push_str(&studies::sections(results, style));
     out.push_str(&failures::blocks(results, style));
     out.push_str(&closing(results));
     out

@@ -43,7 +43,7 @@ fn cost(costs: &[Figure]) -> Option<Answer> {
     (!costs.is_empty()).then(|| Answer {
         question: "What does an error of 1 % cost?".to_owned(),
         headline: String::new(),
-        text: costs.iter().map(sentence).collect::<Vec<_>>().join(" "),
+        text: costs.iter().filter(|f| !f.note.is_empty()).map(sentence).collect::<Vec<_>>().join(" "),
         verdict: String::new(),
         link: "cost".to_owned(),
     })
