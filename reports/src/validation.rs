@@ -8,7 +8,7 @@ use crate::claims::meaning;
 use crate::failure::interval;
 use crate::format::{self, percent, share, signed_percent, significant};
 use crate::markdown::escape;
-use crate::plots::cost::{Cost, cheapest};
+use crate::plots::cost::{Cost, work_precision};
 use crate::results::{CaseJudgement, QuantityResult, Results};
 use crate::terminal::kind_name;
 use seam_cases::result::{Budget, CaseResult};
@@ -63,13 +63,11 @@ fn claims(results: &Results) -> String {
     section("Claims", claims.into_iter().map(one).collect())
 }
 
+/// What the work–precision diagrams end in.
 fn costs(cases: &[&CaseResult]) -> String {
-    let diagrams = cases.iter().flat_map(|c| &c.costs);
-    let one = |d| {
-        let d: &seam_cases::result::CostDiagram = d;
-        format!("- {}: {}\n", escape(&d.title), escape(&cheapest(d, Cost::Work)))
-    };
-    let list: String = diagrams.map(one).collect();
+    let figures = cases.iter().flat_map(|c| &c.costs).flat_map(|d| work_precision(d, Cost::Work));
+    let told = figures.filter(|f| !f.note.is_empty());
+    let list: String = told.map(|f| format!("- {}: {}\n", escape(&f.title), escape(&f.note))).collect();
     section("What accuracy costs", if list.is_empty() { list } else { list + "\n" })
 }
 

@@ -39,11 +39,12 @@ fn claims(results: &Results) -> impl Iterator<Item = Answer> {
 }
 
 fn cost(costs: &[Figure]) -> Option<Answer> {
-    let sentence = |f: &Figure| format!("{}: {}", f.title, f.note);
-    (!costs.is_empty()).then(|| Answer {
+    let told = costs.iter().filter(|f| !f.note.is_empty());
+    let sentences: Vec<String> = told.map(|f| format!("{}: {}", f.title, f.note)).collect();
+    (!sentences.is_empty()).then(|| Answer {
         question: "What does an error of 1 % cost?".to_owned(),
         headline: String::new(),
-        text: costs.iter().map(sentence).collect::<Vec<_>>().join(" "),
+        text: sentences.join(" "),
         verdict: String::new(),
         link: "cost".to_owned(),
     })
