@@ -13,6 +13,7 @@ pub mod failure;
 pub mod format;
 pub mod html;
 pub mod judge;
+pub mod margins;
 pub mod markdown;
 pub mod plots;
 pub mod record;

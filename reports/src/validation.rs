@@ -25,6 +25,7 @@ pub fn document(results: &Results, cases: &[CaseResult]) -> String {
         claims(results),
         costs(&measured),
         budgets(&measured),
+        margins(results),
         format!("## Numbers\n\n{}", results.cases.iter().map(numbers).collect::<String>()),
     ];
     parts.concat()
@@ -89,6 +90,28 @@ fn budgets(cases: &[&CaseResult]) -> String {
         text + &format!("| **total** | {} | | |\n\n", signed_percent(b.total))
     };
     section("Error budgets", cases.iter().flat_map(|c| &c.budgets).map(one).collect())
+}
+
+fn margins(results: &Results) -> String {
+    let rows = results.cases.iter().flat_map(|c| &c.margins).map(|m| {
+        let value = m.value.map_or("not measured".to_owned(), |v| with_unit(v, &m.unit));
+        format!(
+            "| {} | {} | {} | {}{value} | {} | {} |\n",
+            escape(&m.row),
+            escape(&m.label),
+            escape(&m.axis),
+            if m.open { "≥ " } else { "" },
+            with_unit(m.needed, &m.unit),
+            m.verdict
+        )
+    });
+    let rows: String = rows.collect();
+    if rows.is_empty() {
+        return rows;
+    }
+    let head =
+        "| hard case | body and scheme | raised | margin | needed | verdict |\n|---|---|---|---:|---:|---|\n";
+    section("Stability margins", format!("{head}{rows}\n"))
 }
 
 /// A heading with what stands under it; nothing without that.

@@ -11,6 +11,7 @@ pub mod cost;
 pub mod curves;
 pub mod family;
 mod ink;
+pub mod map;
 pub mod picture;
 mod shapes;
 pub mod sketch;

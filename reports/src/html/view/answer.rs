@@ -20,9 +20,10 @@ pub(crate) struct Answer {
     link: String,
 }
 
-/// Whether each claim holds and why, and what 1 % costs.
-pub(super) fn answers(results: &Results, costs: &[Figure]) -> Vec<Answer> {
-    claims(results).chain(cost(costs)).collect()
+/// Whether each claim holds and why, what 1 % costs, and how far the hard cases are from breaking: `margins` says so
+/// where some were run.
+pub(super) fn answers(results: &Results, costs: &[Figure], margins: Option<&str>) -> Vec<Answer> {
+    claims(results).chain(cost(costs)).chain(margins.map(stability)).collect()
 }
 
 /// The claims under test first, then our own, which answer them.
@@ -48,4 +49,14 @@ fn cost(costs: &[Figure]) -> Option<Answer> {
         verdict: String::new(),
         link: "cost".to_owned(),
     })
+}
+
+fn stability(margins: &str) -> Answer {
+    Answer {
+        question: "How far are the hard cases from breaking?".to_owned(),
+        headline: String::new(),
+        text: margins.to_owned(),
+        verdict: String::new(),
+        link: "stability".to_owned(),
+    }
 }
