@@ -228,6 +228,9 @@ pub struct Plot {
     pub log: [bool; 2],
     /// Relative half width of the tolerance band around the first reference series.
     pub band: Option<f64>,
+    /// What the first reference series is.
+    #[serde(default)]
+    pub against: ReferenceKind,
     /// Intervals of x to shade, e.g. the DE part.
     pub shaded: Vec<[f64; 2]>,
     /// The series.

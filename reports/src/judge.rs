@@ -125,6 +125,7 @@ fn judge_curve(plot: &Plot, model: &Series, reference: &Series) -> CurveResult {
     CurveResult {
         plot: plot.id.clone(),
         series: model.name.clone(),
+        kind: plot.against,
         coverage,
         e2: comparison.as_ref().and_then(|c| c.e2),
         e_max: comparison.as_ref().and_then(|c| c.e_max),

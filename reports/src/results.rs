@@ -147,6 +147,8 @@ pub struct CurveResult {
     pub plot: String,
     /// Name of the model's series.
     pub series: String,
+    /// Kind of the reference.
+    pub kind: ReferenceKind,
     /// Share of the reference's stations inside the model's range.
     pub coverage: f64,
     /// Relative L² error; `null` where the reference is zero throughout.

@@ -80,21 +80,26 @@ pub(super) fn page(results: &Results, cases: &[CaseResult]) -> Page {
     let budgets = shown().flat_map(|c| c.budgets.iter().filter_map(|b| budget::view(&c.id, b)));
     let outcome = results.exit(true);
     let work_costs: Vec<Figure> = costs(Cost::Work);
+    let stability = stability::section(results, cases);
     Page {
         outcome: outcome_words(outcome),
         good: outcome == Exit::Pass,
         counts: [with(Verdict::Pass), with(Verdict::Fail), with(Verdict::Undetermined)],
         activities: activities(results),
-        answers: answer::answers(results, &work_costs),
+        answers: answer::answers(
+            results,
+            &work_costs,
+            stability.as_ref().and_then(stability::Stability::sentence),
+        ),
         failures: failures::views(results),
         claims: claims.map(|(c, j)| claim::claim(c, j, measured(&c.id))).collect(),
         rows: numbers::rows(results),
         bias: plots::bias::scatter(results).into_iter().collect(),
         budgets: budgets.collect(),
         costs: work_costs,
-        stability: stability::section(results, cases),
         cost_tables: studies::costs(results),
         ablations: studies::ablations(results),
+        stability,
         cases: results.cases.iter().map(|c| case::view(c, measured(&c.id))).collect(),
         provenance: results.provenance.clone(),
         timings: results.cases.iter().map(|c| (c.id.clone(), seconds(c.seconds))).collect(),
