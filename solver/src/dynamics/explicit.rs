@@ -15,6 +15,7 @@ use super::system::System;
 use crate::error::{Error, Result};
 use crate::model::Model;
 use crate::work::Work;
+use serde::{Deserialize, Serialize};
 
 /// How to integrate.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -62,7 +63,7 @@ pub struct Explicit {
 }
 
 /// What a run carries from step to step.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct Motion {
     /// Time of step zero, in s.
     pub start: f64,
