@@ -1,5 +1,6 @@
 //! What the part of a case shows.
 
+use super::switches::{self, Switches};
 use crate::format::{self, percent, share};
 use crate::html::prose;
 use crate::plots::{self, Figure};
@@ -22,6 +23,7 @@ pub(crate) struct Case {
     pub(super) figures: Vec<Figure>,
     pub(super) pictures: Vec<Figure>,
     curves: Vec<[String; 6]>,
+    switches: Option<Switches>,
     work: Vec<(&'static str, String)>,
     notes: Vec<String>,
 }
@@ -52,6 +54,7 @@ pub(super) fn view(judged: &CaseJudgement, measured: Option<&CaseResult>) -> Cas
         figures: curves.chain(orders).flatten().collect(),
         pictures: m.pictures.iter().filter_map(plots::picture::picture).collect(),
         curves: judged.curves.iter().map(curve).collect(),
+        switches: switches::view(&m.switches),
         work: work(judged),
         notes: m.notes.clone(),
     }

@@ -6,6 +6,7 @@ mod case;
 mod claim;
 mod failures;
 mod numbers;
+mod switches;
 
 use crate::activity::Activity;
 use crate::exit::Exit;
