@@ -7,6 +7,7 @@ use crate::results::Unmeasured;
 use crate::running::Failed;
 use crate::{message, references, results, running};
 use anyhow::Result;
+use seam_cases::checkpoint::Checkpoints;
 use seam_cases::file::SceneFile;
 use seam_cases::write::RESULT;
 use seam_reports::exit::Exit;
@@ -16,7 +17,7 @@ use seam_reports::terminal;
 pub fn validate(words: &Validate) -> Result<Exit> {
     let references = references::verified(&words.references)?;
     let files = running::scenes(&[], &[], words.running.tier)?;
-    let failed = running::run(&files, &words.out, &words.running)?;
+    let failed = running::run(&files, &words.out, &words.running, &|_| Checkpoints::default())?;
     // Only what has just run: other results may lie in the folder.
     let has_run = |file: &&SceneFile| failed.iter().all(|f| f.id != file.scene.id);
     let read = |file: &SceneFile| results::read(&words.out.join(&file.scene.id).join(RESULT));
