@@ -4,6 +4,7 @@
 
 use crate::error::{Error, Result};
 use crate::file::SceneFile;
+use crate::observe::guard::Guard;
 use crate::observe::history::Histories;
 use seam_solver::checkpoint::{open, seal};
 use seam_solver::files::write_atomically;
@@ -28,6 +29,8 @@ pub(crate) struct Kept {
     /// Hash of the scene, overrides included.
     scene: String,
     pub histories: Histories,
+    /// Largest rotation, and nearest to a switch that was left out.
+    pub guarded: (f64, Option<f64>),
     /// The solver's own checkpoint.
     pub run: Vec<u8>,
 }
@@ -66,7 +69,12 @@ impl Checkpoints {
     ///
     /// # Errors
     /// A file that cannot be written; an earlier one is then as before.
-    pub(crate) fn keep(&self, file: &SceneFile, histories: &Histories, snapshot: &Snapshot) -> Result<()> {
+    pub(crate) fn keep(
+        &self,
+        file: &SceneFile,
+        (histories, guard): (&Histories, &Guard),
+        snapshot: &Snapshot,
+    ) -> Result<()> {
         let Some((every, path)) = &self.keep else { return Ok(()) };
         // The first output is the start.
         let outputs = histories.energies.len() - 1;
@@ -77,6 +85,7 @@ impl Checkpoints {
             case: file.scene.id.clone(),
             scene: file.hash(),
             histories: histories.clone(),
+            guarded: (guard.largest_rotation, guard.nearest_switch),
             run: snapshot.checkpoint(),
         };
         write_atomically(path, &seal(&kept)).map_err(|e| file.solver(e))

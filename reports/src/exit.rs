@@ -48,17 +48,22 @@ impl Results {
 impl CaseJudgement {
     /// Whether something could not be measured, or nothing was compared at all.
     pub fn unmeasured(&self) -> bool {
-        let nothing = self.quantities.is_empty() && self.claims.is_empty() && self.curves.is_empty();
+        let nothing = self.quantities.is_empty()
+            && self.claims.is_empty()
+            && self.curves.is_empty()
+            && self.margins.is_empty();
         nothing
             || self.quantities.iter().any(|q| q.value.is_none() || q.verdict == Some(Verdict::Undetermined))
             || self.curves.iter().any(|c| c.verdict == Verdict::Undetermined)
+            || self.margins.iter().any(|m| m.verdict == Verdict::Undetermined)
             || self.claims.iter().any(|c| c.unmeasured.is_some())
     }
 
-    /// Whether a number, a curve or a claim failed.
+    /// Whether a number, a curve, a margin or a claim failed.
     pub fn failed(&self) -> bool {
         self.quantities.iter().any(|q| q.verdict == Some(Verdict::Fail))
             || self.curves.iter().any(|c| c.verdict == Verdict::Fail)
+            || self.margins.iter().any(|m| m.verdict == Verdict::Fail)
             || self.claims.iter().any(ClaimResult::failed)
     }
 

@@ -1,6 +1,7 @@
 //! Failures in words, the same for every view.
 
 use crate::format::{self, percent, share, with_unit};
+use crate::margins::MarginResult;
 use crate::record::RecordState;
 use crate::results::{CaseJudgement, ClaimResult, CurveResult, QuantityResult, Results};
 use crate::verdict::{ClaimVerdict, Verdict};
@@ -35,7 +36,9 @@ fn of_case(case: &CaseJudgement) -> Vec<Failure> {
     let quantities = case.quantities.iter().filter_map(|q| of_quantity(case, q));
     let curves = case.curves.iter().filter_map(|c| of_curve(case, c));
     let claims = case.claims.iter().filter_map(|c| of_claim(case, c));
-    let all: Vec<Failure> = quantities.chain(curves).chain(claims).chain(of_cost(case)).collect();
+    let margins = case.margins.iter().filter_map(|m| of_margin(case, m));
+    let all: Vec<Failure> =
+        quantities.chain(curves).chain(margins).chain(claims).chain(of_cost(case)).collect();
     if all.is_empty() && case.unmeasured() {
         return vec![of_empty(case)];
     }
@@ -99,6 +102,32 @@ fn of_curve(case: &CaseJudgement, c: &CurveResult) -> Option<Failure> {
         bound: format!("{} of the reference's stations", percent(crate::compare::LEAST_COVERAGE)),
         meaning: c.why.clone(),
         ..failure(case, class, &c.plot)
+    })
+}
+
+fn of_margin(case: &CaseJudgement, m: &MarginResult) -> Option<Failure> {
+    let class = match m.verdict {
+        Verdict::Pass => return None,
+        Verdict::Fail => FAILED,
+        Verdict::Undetermined => NOT_MEASURED,
+    };
+    let (bound, meaning) = match m.recorded {
+        _ if m.value.is_none() => ("a finite margin".to_owned(), "nothing was compared".to_owned()),
+        Some(recorded) if !m.too_small() => (
+            format!("{} ± {}, recorded", with_unit(recorded, &m.unit), percent(m.tolerance)),
+            "the margin has changed: find out why before it is accepted".to_owned(),
+        ),
+        _ => (
+            format!("{} has to pass: {}", with_unit(m.needed, &m.unit), m.criterion),
+            "the hard case does not pass where it has to".to_owned(),
+        ),
+    };
+    let value = m.value.map_or("no finite number".to_owned(), |v| with_unit(v, &m.unit));
+    Some(Failure {
+        measured: format!("{value} ({}, {})", m.axis, m.label),
+        bound,
+        meaning,
+        ..failure(case, class, &m.id)
     })
 }
 

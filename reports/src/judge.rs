@@ -2,6 +2,7 @@
 
 use crate::claims;
 use crate::compare::{CurveComparison, LEAST_COVERAGE, Tolerance, compare_curves, headroom, signed_error};
+use crate::margins;
 use crate::record::{self, Recorded};
 use crate::results::{CaseJudgement, ClaimResult, CurveResult, Provenance, QuantityResult, Results, SCHEMA};
 use crate::statistics::convergence::fitted_order;
@@ -36,6 +37,11 @@ fn judge_case(case: &CaseResult, recorded: &Recorded) -> CaseJudgement {
             .collect(),
         curves: case.curves.iter().flat_map(judge_curves).collect(),
         claims: claims_in_order(case, recorded),
+        margins: case
+            .margins
+            .iter()
+            .map(|m| margins::judge(m, recorded.margin(&case.tier, &case.id, &m.id)))
+            .collect(),
         work: case.work,
         recorded_work: recorded.work(&case.tier, &case.id, &case.scene_hash),
         seconds: case.seconds,

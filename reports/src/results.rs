@@ -3,6 +3,7 @@
 use crate::claims::ReadingResult;
 use crate::claims::decides::AxisEffect;
 use crate::claims::particles::Needed;
+use crate::margins::MarginResult;
 use crate::record::{RecordState, RecordedClaim};
 use crate::verdict::{ClaimVerdict, Verdict};
 use schemars::JsonSchema;
@@ -80,6 +81,9 @@ pub struct CaseJudgement {
     pub curves: Vec<CurveResult>,
     /// Judged claims.
     pub claims: Vec<ClaimResult>,
+    /// Judged margins of hard cases.
+    #[serde(default)]
+    pub margins: Vec<MarginResult>,
     /// Counted work of the case.
     #[schemars(with = "BTreeMap<String, u64>")]
     pub work: Work,
@@ -147,7 +151,7 @@ pub struct CurveResult {
 }
 
 /// A judged claim.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ClaimResult {
     /// Id of the claim.
     pub id: String,

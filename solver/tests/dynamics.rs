@@ -370,3 +370,66 @@ fn a_spinning_chain_keeps_energy_to_second_order() {
     let refusal = Explicit::new(&coupled, options, &at_rest(&coupled)).err().unwrap().to_string();
     assert!(refusal.contains("'left'") && refusal.contains("small strains"), "{refusal}");
 }
+
+mod restart {
+    use super::*;
+    use seam_solver::dynamics::checkpoint;
+
+    fn run(model: &Model, rotations: Rotations) -> Explicit {
+        let step_s = 0.9 * critical::bound(model).unwrap().step_s;
+        let damping = Damping::NonViscous { share: 0.1 };
+        let loads = LoadFactor::Ramp { start_s: 0.0, rise_s: 100.0 * step_s };
+        let options = Options { step_s, loads, damping, rotations, ..Options::default() };
+        Explicit::new(model, options, &at_rest(model)).unwrap()
+    }
+
+    /// Through a file and on: the same bits as without stopping, counters and ledger too.
+    #[test]
+    fn goes_on_bit_by_bit() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("run.checkpoint");
+        let mut chain = bar(5);
+        chain.supports.retain(|s| s.point == 0);
+        chain.loads.push(PointValue { part: 0, point: 5, component: 1, value: 1e-4 });
+        for (model, rotations) in [(coupled(Method::Mortar), Rotations::Small), (chain, Rotations::Finite)] {
+            let mut whole = run(&model, rotations);
+            whole.advance(120).unwrap();
+            checkpoint::write(&path, &model, &whole).unwrap();
+            let options = whole.options().clone();
+            let mut resumed = checkpoint::resume(&path, &model, options).unwrap();
+            whole.advance(130).unwrap();
+            resumed.advance(130).unwrap();
+            assert_eq!(whole.work(), resumed.work());
+            assert_eq!(whole.observe().unwrap(), resumed.observe().unwrap());
+            assert!(whole.u().iter().any(|u| *u != 0.0));
+        }
+    }
+
+    #[test]
+    fn of_another_model_or_a_broken_file_is_refused() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("run.checkpoint");
+        let mut model = coupled(Method::Mortar);
+        let whole = run(&model, Rotations::Small);
+        checkpoint::write(&path, &model, &whole).unwrap();
+        let refusal = |model: &Model, options: &Options| {
+            checkpoint::resume(&path, model, options.clone()).err().unwrap().to_string()
+        };
+        let options = whole.options();
+        let slower = Options { step_s: 0.5 * options.step_s, ..options.clone() };
+        assert!(refusal(&model, &slower).contains("another model or with other options"));
+        model.loads[0].value += 1e-9;
+        assert!(refusal(&model, options).contains("another model or with other options"));
+        model.loads[0].value -= 1e-9;
+        let mut bytes = std::fs::read(&path).unwrap();
+        bytes[200] ^= 1;
+        std::fs::write(&path, &bytes).unwrap();
+        assert!(refusal(&model, options).contains("damaged"));
+        std::fs::write(&path, &bytes[..60]).unwrap();
+        assert!(refusal(&model, options).contains("damaged"));
+        std::fs::write(&path, b"").unwrap();
+        assert!(refusal(&model, options).contains("no checkpoint"));
+        std::fs::remove_file(&path).unwrap();
+        assert!(refusal(&model, options).contains("run.checkpoint"));
+    }
+}

@@ -76,6 +76,7 @@ fn through(
     };
     drop(plan);
     drop(fills);
+    built.calibration += context.calibration.get();
     built.notes.extend(fillings.into_iter().flat_map(Filling::into_notes));
     outcome
 }

@@ -75,7 +75,7 @@ fn unbroken(setting: &CostSetting, cost: Cost) -> Vec<Vec<[f64; 2]>> {
 }
 
 /// `Cheapest setting with error ≤ 1 %: weighted skin, 8 rows, 202 particles, 0.4 s.`
-fn cheapest(diagram: &CostDiagram, cost: Cost) -> String {
+pub fn cheapest(diagram: &CostDiagram, cost: Cost) -> String {
     let runs = diagram.settings.iter().flat_map(|s| s.points.iter().map(move |p| (s, p)));
     let good = runs.filter(|(_, p)| p.error.is_some_and(|e| e <= TARGET));
     let best = good.min_by(|(_, a), (_, b)| cost.of(a).total_cmp(&cost.of(b)));

@@ -1,9 +1,40 @@
-//! What explicit steps carry from one to the next, to go on later bit by bit.
+//! Stopping explicit steps and going on later, bit by bit: what they carry from one to the next, also through a file.
 
-use super::explicit::Explicit;
-use crate::checkpoint::{from_bytes, to_bytes};
-use crate::error::Result;
+use super::State;
+use super::explicit::{Explicit, Options};
+use crate::checkpoint::{Fingerprint, from_bytes, open, seal, to_bytes};
+use crate::error::{Error, Result};
+use crate::files::write_atomically;
+use crate::model::{Model, Numbering};
 use nalgebra::{Quaternion, UnitQuaternion};
+use std::path::Path;
+
+/// Writes the state of a run of `model`.
+///
+/// # Errors
+/// A file that cannot be written.
+pub fn write(path: &Path, model: &Model, run: &Explicit) -> Result<()> {
+    write_atomically(path, &seal(&(Fingerprint::of(&(model, run.options())), run.freeze())))
+}
+
+/// Reads a state and goes on from it.
+///
+/// # Errors
+/// A file that cannot be read, is damaged, or belongs to another model or other options; whatever
+/// [`Explicit::new`] refuses.
+pub fn resume(path: &Path, model: &Model, options: Options) -> Result<Explicit> {
+    let refuse = |message: String| Error::File { file: path.display().to_string(), line: None, message };
+    let bytes = std::fs::read(path).map_err(|e| refuse(format!("{e}; check the path")))?;
+    let (belongs_to, state): (Fingerprint, Vec<u8>) = open(&bytes).map_err(|e| refuse(e.to_string()))?;
+    if belongs_to != Fingerprint::of(&(model, &options)) {
+        let message =
+            "it was written for another model or with other options; resume with those, or start again";
+        return Err(refuse(message.to_owned()));
+    }
+    let mut run = Explicit::new(model, options, &State::at_rest(Numbering::new(model).len()))?;
+    run.thaw(&state)?;
+    Ok(run)
+}
 
 impl Explicit {
     /// All that changes from step to step, counted work included.

@@ -2,11 +2,11 @@
 //!
 //! Explicit: [`system`] is what the schemes share: lumped masses, supports, loads and constraint rows on
 //! the unknowns of a [`crate::model::Numbering`]. [`load`] scales supports and loads in time. [`explicit`] takes steps below
-//! the [`critical`] one, keeps the ties by an [`interface`] solve and a [`ledger`] of energies.
+//! the [`critical`] one, keeps the ties by an [`interface`] solve and a [`ledger`] of energies; a [`checkpoint`] lets it go on later.
 //! Implicit: [`semidiscrete`] has the matrices on the free unknowns for [`newmark`] steps, two rates ([`multirate`]),
 //! equilibria ([`quasi_static`]) and natural [`modes`].
 
-mod checkpoint;
+pub mod checkpoint;
 pub mod critical;
 pub mod damping;
 pub mod explicit;

@@ -15,6 +15,7 @@ use super::{check, start};
 use crate::dynamics::State;
 use crate::error::Error;
 use crate::model::{Model, Numbering, Part};
+use crate::stage::{Stage, timed};
 use std::time::Instant;
 
 /// Runs a model from rest, or from the plan's velocities, at time zero to the end; `watch` sees the snapshots.
@@ -22,6 +23,14 @@ use std::time::Instant;
 /// # Errors
 /// What a plan or its schemes refuse; what `watch` returns.
 pub fn run<E: From<Error>>(
+    model: Model,
+    plan: &Plan,
+    watch: &mut dyn FnMut(&Snapshot) -> Result<(), E>,
+) -> Result<Outcome, E> {
+    timed(Stage::Steps, || through(model, plan, watch))
+}
+
+fn through<E: From<Error>>(
     mut model: Model,
     plan: &Plan,
     watch: &mut dyn FnMut(&Snapshot) -> Result<(), E>,
@@ -42,9 +51,18 @@ pub fn run<E: From<Error>>(
 /// # Errors
 /// A checkpoint that is damaged, or of another model or plan; otherwise as [`run`].
 pub fn resume<E: From<Error>>(
-    mut model: Model,
+    model: Model,
     plan: &Plan,
     checkpoint: &[u8],
+    watch: &mut dyn FnMut(&Snapshot) -> Result<(), E>,
+) -> Result<Outcome, E> {
+    timed(Stage::Steps, || on_from(checkpoint, model, plan, watch))
+}
+
+fn on_from<E: From<Error>>(
+    checkpoint: &[u8],
+    mut model: Model,
+    plan: &Plan,
     watch: &mut dyn FnMut(&Snapshot) -> Result<(), E>,
 ) -> Result<Outcome, E> {
     check::plan(&model, plan)?;

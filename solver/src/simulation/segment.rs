@@ -10,6 +10,7 @@ use crate::dynamics::State;
 use crate::dynamics::ledger::WorkDone;
 use crate::error::{Error, Result};
 use crate::model::Model;
+use crate::stage::{Stage, timed};
 use crate::work::Work;
 use serde::{Deserialize, Serialize};
 
@@ -130,7 +131,7 @@ impl<'a> Course<'a> {
                 let energies = self.energies(&look);
                 self.so_far.worst_closure = self.so_far.worst_closure.max(energies.closure());
                 let (course, stepper) = (&*self, &*stepper);
-                watch(&Snapshot {
+                let snapshot = Snapshot {
                     model,
                     state: &look.state,
                     factor: course.plan.loads.at(look.state.time),
@@ -139,7 +140,8 @@ impl<'a> Course<'a> {
                     reactions: &look.reactions,
                     switches: course.so_far.switches,
                     freeze: &|| Frozen::of(course, (model, record), beginning.since, (k, stepper)).seal(),
-                })?;
+                };
+                timed(Stage::Output, || watch(&snapshot))?;
             }
             if k == clock.count {
                 return Ok(self.end(stepper.look()?, Vec::new(), clock.time(k)));

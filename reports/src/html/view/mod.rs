@@ -6,6 +6,7 @@ mod case;
 mod claim;
 mod failures;
 mod numbers;
+mod stability;
 mod switches;
 
 use crate::activity::Activity;
@@ -32,6 +33,7 @@ pub(super) struct Page {
     bias: Vec<Figure>,
     budgets: Vec<budget::BudgetView>,
     costs: Vec<Figure>,
+    stability: Option<stability::Stability>,
     cases: Vec<case::Case>,
     provenance: Provenance,
     timings: Vec<(String, String)>,
@@ -44,9 +46,10 @@ impl Page {
     pub(super) fn figures(&self) -> impl Iterator<Item = (String, &Figure)> {
         let claims = self.claims.iter().filter_map(claim::Claim::figure);
         let budgets = self.budgets.iter().map(|b| &b.figure);
-        let totals = self.bias.iter().chain(budgets).chain(&self.costs).chain(&self.second_costs);
+        let maps = self.stability.iter().flat_map(stability::Stability::maps);
+        let totals = self.bias.iter().chain(budgets).chain(&self.costs).chain(&self.second_costs).chain(maps);
         let cases = self.cases.iter().flat_map(|c| {
-            let figures = c.pictures.iter().chain(&c.figures);
+            let figures = c.sketches.iter().chain(&c.pictures).chain(&c.figures);
             figures.map(|figure| (format!("{}-{}", c.judged.id, slug(&figure.title)), figure))
         });
         claims.chain(totals.map(|figure| (slug(&figure.title), figure))).chain(cases)
@@ -84,6 +87,7 @@ pub(super) fn page(results: &Results, cases: &[CaseResult]) -> Page {
         bias: plots::bias::scatter(results).into_iter().collect(),
         budgets: budgets.collect(),
         costs: work_costs,
+        stability: stability::section(results, cases),
         cases: results.cases.iter().map(|c| case::view(c, measured(&c.id))).collect(),
         provenance: results.provenance.clone(),
         timings: results.cases.iter().map(|c| (c.id.clone(), seconds(c.seconds))).collect(),
