@@ -232,6 +232,9 @@ pub struct Report {
     /// Folder with the results of a run
     #[arg(long, value_name = "DIR", default_value = "out")]
     pub from: PathBuf,
+    /// Write the validation document too: the figures as Markdown, without machine and timings
+    #[arg(long, value_name = "FILE")]
+    pub markdown: Option<PathBuf>,
     /// What is judged beside
     #[command(flatten)]
     pub references: ReferencesFolder,

@@ -6,6 +6,8 @@
 mod cost;
 mod effects;
 
+use crate::map::StabilityMap;
+use crate::margin::Margin;
 pub use cost::{CostDiagram, CostPoint, CostSetting, Growth};
 pub use effects::{Ablation, AblationChange, AblationRun, EffectUse, Expected, Indicator};
 use schemars::JsonSchema;
@@ -64,6 +66,12 @@ pub struct CaseResult {
     /// Elements that became particles on the way, in order.
     #[serde(default)]
     pub switches: Vec<SwitchRecord>,
+    /// How far the hard cases are from breaking.
+    #[serde(default)]
+    pub margins: Vec<Margin>,
+    /// Where stability ends over two parameters.
+    #[serde(default)]
+    pub maps: Vec<StabilityMap>,
     /// Counted work of all runs of the case.
     pub work: Work,
     /// Wall time of the case, in seconds. Not deterministic.
@@ -81,6 +89,8 @@ impl CaseResult {
         replace(&mut self.growths, study.growths, |g| &g.id);
         replace(&mut self.ablations, study.ablations, |a| &a.id);
         replace(&mut self.pictures, study.pictures, |p| &p.id);
+        replace(&mut self.margins, study.margins, |m| &m.id);
+        replace(&mut self.maps, study.maps, |m| &m.id);
         self.notes.extend(study.notes);
     }
 }
@@ -218,6 +228,9 @@ pub struct Plot {
     pub log: [bool; 2],
     /// Relative half width of the tolerance band around the first reference series.
     pub band: Option<f64>,
+    /// What the first reference series is.
+    #[serde(default)]
+    pub against: ReferenceKind,
     /// Intervals of x to shade, e.g. the DE part.
     pub shaded: Vec<[f64; 2]>,
     /// The series.
@@ -367,4 +380,32 @@ pub struct Picture {
     pub supports: Vec<[f64; 2]>,
     /// Loads as start point and direction (unit vector).
     pub loads: Vec<[[f64; 2]; 2]>,
+    /// The bodies, for their names and dimensions.
+    #[serde(default)]
+    pub bodies: Vec<BodyOutline>,
+    /// The coupled faces.
+    #[serde(default)]
+    pub ties: Vec<TiedFace>,
+}
+
+/// A body of a picture.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct BodyOutline {
+    /// Name as in the scene file.
+    pub name: String,
+    /// `FE` or `DE`.
+    pub method: String,
+    /// Lower left and upper right corner of the box around its nodes or particles, undeformed, in metres.
+    pub extent: [[f64; 2]; 2],
+}
+
+/// A coupled face of a picture.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct TiedFace {
+    /// Name of the tie as in the scene file.
+    pub name: String,
+    /// How it is tied, e.g. `mortar`.
+    pub method: String,
+    /// Nodes or particles of its first face, in order along it, undeformed, in metres.
+    pub line: Vec<[f64; 2]>,
 }

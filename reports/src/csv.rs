@@ -1,16 +1,17 @@
-//! Tables as CSV: the errors of all quantities, the members of each family. Curves are written where a case is run.
+//! Tables as CSV: the errors of all quantities, the margins of the hard cases, the members of each family. Curves are written where a case is run.
 
 use crate::results::{Results, ResultsError, write_whole};
 use crate::terminal::kind_name;
 use seam_cases::result::{CaseResult, CostDiagram, Family};
 use std::path::Path;
 
-/// Writes `errors.csv` and, per case, `<case>/family-<claim>.csv` and `<case>/cost-<diagram>.csv`.
+/// Writes `errors.csv`, `margins.csv` and, per case, `<case>/family-<claim>.csv` and `<case>/cost-<diagram>.csv`.
 ///
 /// # Errors
 /// A file cannot be written.
 pub fn write(results: &Results, cases: &[CaseResult], folder: &Path) -> Result<(), ResultsError> {
     write_whole(&folder.join("errors.csv"), &errors(results)?)?;
+    write_whole(&folder.join("margins.csv"), &margins(results)?)?;
     for case in cases {
         let folder = folder.join(file_name(&case.id));
         for diagram in &case.costs {
@@ -39,6 +40,25 @@ pub fn errors(results: &Results) -> Result<String, ResultsError> {
             row.push(q.reference.map_or(String::new(), |_| kind_name(q).to_owned()));
             row.extend([q.error, q.u_num, q.u_ref, lo, hi, q.headroom].map(number));
             row.push(q.verdict.map_or(String::new(), |v| v.to_string()));
+            row
+        })
+    });
+    text(header.split(',').map(str::to_owned).collect(), rows)
+}
+
+/// One row per margin. Missing numbers are empty fields.
+///
+/// # Errors
+/// None in practice: the text is written to memory.
+pub fn margins(results: &Results) -> Result<String, ResultsError> {
+    let header = "case,margin,row,label,axis,unit,value,open,needed,recorded,tolerance,verdict";
+    let rows = results.cases.iter().flat_map(|c| {
+        c.margins.iter().map(|m| {
+            let words = [&c.id, &m.id, &m.row, &m.label, &m.axis, &m.unit].map(String::clone);
+            let mut row = words.to_vec();
+            row.extend([number(m.value), m.open.to_string()]);
+            row.extend([Some(m.needed), m.recorded, Some(m.tolerance)].map(number));
+            row.push(m.verdict.to_string());
             row
         })
     });

@@ -3,6 +3,7 @@
 use crate::ablation::AblationJudgement;
 use crate::format::{self, percent, share, with_unit};
 use crate::growth::TimedGrowth;
+use crate::margins::MarginResult;
 use crate::record::RecordState;
 use crate::results::{CaseJudgement, ClaimResult, CurveResult, QuantityResult, Results};
 use crate::verdict::{ClaimVerdict, Verdict};
@@ -39,10 +40,11 @@ fn of_case(case: &CaseJudgement) -> Vec<Failure> {
     let quantities = case.quantities.iter().filter_map(|q| of_quantity(case, q));
     let curves = case.curves.iter().filter_map(|c| of_curve(case, c));
     let claims = case.claims.iter().filter_map(|c| of_claim(case, c));
+    let margins = case.margins.iter().filter_map(|m| of_margin(case, m));
     let effects = case.effects.iter().filter_map(|e| of_effect(case, e));
     let ablations = case.ablations.iter().filter_map(|a| of_ablation(case, a));
     let timed = case.timed.iter().filter_map(|t| of_timed(case, t));
-    let studies = effects.chain(ablations).chain(timed);
+    let studies = margins.chain(effects).chain(ablations).chain(timed);
     let all: Vec<Failure> =
         quantities.chain(curves).chain(claims).chain(studies).chain(of_cost(case)).collect();
     if all.is_empty() && case.unmeasured() {
@@ -108,6 +110,32 @@ fn of_curve(case: &CaseJudgement, c: &CurveResult) -> Option<Failure> {
         bound: format!("{} of the reference's stations", percent(crate::compare::LEAST_COVERAGE)),
         meaning: c.why.clone(),
         ..failure(case, class, &c.plot)
+    })
+}
+
+fn of_margin(case: &CaseJudgement, m: &MarginResult) -> Option<Failure> {
+    let class = match m.verdict {
+        Verdict::Pass => return None,
+        Verdict::Fail => FAILED,
+        Verdict::Undetermined => NOT_MEASURED,
+    };
+    let (bound, meaning) = match m.recorded {
+        _ if m.value.is_none() => ("a finite margin".to_owned(), "nothing was compared".to_owned()),
+        Some(recorded) if !m.too_small() => (
+            format!("{} ± {}, recorded", with_unit(recorded, &m.unit), percent(m.tolerance)),
+            "the margin has changed: find out why before it is accepted".to_owned(),
+        ),
+        _ => (
+            format!("{} has to pass: {}", with_unit(m.needed, &m.unit), m.criterion),
+            "the hard case does not pass where it has to".to_owned(),
+        ),
+    };
+    let value = m.value.map_or("no finite number".to_owned(), |v| with_unit(v, &m.unit));
+    Some(Failure {
+        measured: format!("{value} ({}, {})", m.axis, m.label),
+        bound,
+        meaning,
+        ..failure(case, class, &m.id)
     })
 }
 

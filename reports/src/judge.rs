@@ -1,6 +1,7 @@
 //! From measured results to judged ones.
 
 use crate::compare::{CurveComparison, LEAST_COVERAGE, Tolerance, compare_curves, headroom, signed_error};
+use crate::margins;
 use crate::record::{self, Recorded};
 use crate::results::{CaseJudgement, ClaimResult, CurveResult, Provenance, QuantityResult, Results, SCHEMA};
 use crate::statistics::convergence::fitted_order;
@@ -37,6 +38,11 @@ fn judge_case(case: &CaseResult, recorded: &Recorded) -> CaseJudgement {
             .collect(),
         curves: case.curves.iter().flat_map(judge_curves).collect(),
         claims: claims_in_order(case, recorded),
+        margins: case
+            .margins
+            .iter()
+            .map(|m| margins::judge(m, recorded.margin(&case.tier, &case.id, &m.id)))
+            .collect(),
         trusted: case.effects.iter().all(|effect| !effect.called_for),
         costs: case.costs.iter().map(cost::judge).collect(),
         timed: case.growths.iter().filter_map(growth::of_seconds).collect(),
@@ -119,6 +125,7 @@ fn judge_curve(plot: &Plot, model: &Series, reference: &Series) -> CurveResult {
     CurveResult {
         plot: plot.id.clone(),
         series: model.name.clone(),
+        kind: plot.against,
         coverage,
         e2: comparison.as_ref().and_then(|c| c.e2),
         e_max: comparison.as_ref().and_then(|c| c.e_max),

@@ -6,6 +6,7 @@ use crate::claims::decides::AxisEffect;
 use crate::claims::particles::Needed;
 use crate::cost::CostJudgement;
 use crate::growth::TimedGrowth;
+use crate::margins::MarginResult;
 use crate::record::{RecordState, RecordedClaim};
 use crate::verdict::{ClaimVerdict, Verdict};
 use schemars::JsonSchema;
@@ -85,6 +86,9 @@ pub struct CaseJudgement {
     pub curves: Vec<CurveResult>,
     /// Judged claims.
     pub claims: Vec<ClaimResult>,
+    /// Judged margins of hard cases.
+    #[serde(default)]
+    pub margins: Vec<MarginResult>,
     /// What accuracy costs, one entry per diagram.
     pub costs: Vec<CostJudgement>,
     /// Exponents of wall time.
@@ -143,6 +147,8 @@ pub struct CurveResult {
     pub plot: String,
     /// Name of the model's series.
     pub series: String,
+    /// Kind of the reference.
+    pub kind: ReferenceKind,
     /// Share of the reference's stations inside the model's range.
     pub coverage: f64,
     /// Relative L² error; `null` where the reference is zero throughout.
@@ -158,7 +164,7 @@ pub struct CurveResult {
 }
 
 /// A judged claim.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ClaimResult {
     /// Id of the claim.
     pub id: String,

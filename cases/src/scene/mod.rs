@@ -7,6 +7,7 @@ pub mod body;
 pub mod check;
 mod check_connection;
 mod check_dynamics;
+pub mod check_notched_beam;
 mod check_probe;
 mod check_study;
 mod check_switch;
@@ -70,7 +71,7 @@ pub struct Scene {
     /// Plane or solid.
     #[serde(default = "plane_stress")]
     pub hypothesis: Hypothesis,
-    /// Thickness in the plane, in m.
+    /// Thickness in the plane, in m; in the solid that of notched beams.
     #[serde(default = "unit_thickness")]
     pub thickness_m: number::Number,
     /// Named numbers.

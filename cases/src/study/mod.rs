@@ -14,6 +14,7 @@ mod plots;
 mod quantities;
 mod reference;
 mod richardson;
+mod sketch;
 
 use crate::error::{Error, Result};
 use crate::file::SceneFile;

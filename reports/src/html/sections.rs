@@ -34,6 +34,7 @@ sections! {
     "bias": "Bias and scatter",
     "budget": "Error budget",
     "cost": "What accuracy costs",
+    "stability": "Stability margins",
     "effects": "Effects on and off",
     "cases": "Cases",
     "provenance": "Provenance",

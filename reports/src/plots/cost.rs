@@ -97,7 +97,7 @@ fn unbroken(setting: &CostSetting, cost: Cost) -> Vec<Vec<[f64; 2]>> {
 }
 
 /// `Cheapest setting with error ≤ 5 %: half skin, 4 rows, 61 particles, 0.1 s; ≤ 1 %: …; ≤ 0.1 %: none.`
-pub fn cheapest(diagram: &CostDiagram, cost: Cost) -> String {
+fn cheapest(diagram: &CostDiagram, cost: Cost) -> String {
     let failed = diagram.settings.iter().flat_map(|s| &s.points).filter(|p| p.error.is_none()).count();
     let gaps = if failed > 0 {
         format!(" {} failed and left a gap.", crate::format::count(failed, "run"))

@@ -11,7 +11,10 @@ pub mod cost;
 pub mod curves;
 pub mod family;
 mod ink;
+pub mod map;
 pub mod picture;
+mod shapes;
+pub mod sketch;
 mod ticks;
 
 pub use ink::Ink;

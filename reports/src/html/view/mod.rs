@@ -6,6 +6,7 @@ mod case;
 mod claim;
 mod failures;
 mod numbers;
+mod stability;
 mod studies;
 
 use crate::activity::Activity;
@@ -32,6 +33,7 @@ pub(super) struct Page {
     bias: Vec<Figure>,
     budgets: Vec<budget::BudgetView>,
     costs: Vec<Figure>,
+    stability: Option<stability::Stability>,
     cost_tables: Vec<studies::CostView>,
     ablations: Vec<studies::AblationView>,
     cases: Vec<case::Case>,
@@ -49,9 +51,10 @@ impl Page {
     pub(super) fn figures(&self) -> impl Iterator<Item = (String, &Figure)> {
         let claims = self.claims.iter().filter_map(claim::Claim::figure);
         let budgets = self.budgets.iter().map(|b| &b.figure);
-        let totals = self.bias.iter().chain(budgets).chain(&self.costs).chain(&self.second_costs);
+        let maps = self.stability.iter().flat_map(stability::Stability::maps);
+        let totals = self.bias.iter().chain(budgets).chain(&self.costs).chain(&self.second_costs).chain(maps);
         let cases = self.cases.iter().flat_map(|c| {
-            let figures = c.pictures.iter().chain(&c.figures);
+            let figures = c.sketches.iter().chain(&c.pictures).chain(&c.figures);
             figures.map(|figure| (format!("{}-{}", c.judged.id, slug(&figure.title)), figure))
         });
         claims.chain(totals.map(|figure| (slug(&figure.title), figure))).chain(cases)
@@ -77,12 +80,17 @@ pub(super) fn page(results: &Results, cases: &[CaseResult]) -> Page {
     let budgets = shown().flat_map(|c| c.budgets.iter().filter_map(|b| budget::view(&c.id, b)));
     let outcome = results.exit(true);
     let work_costs: Vec<Figure> = costs(Cost::Work);
+    let stability = stability::section(results, cases);
     Page {
         outcome: outcome_words(outcome),
         good: outcome == Exit::Pass,
         counts: [with(Verdict::Pass), with(Verdict::Fail), with(Verdict::Undetermined)],
         activities: activities(results),
-        answers: answer::answers(results, &work_costs),
+        answers: answer::answers(
+            results,
+            &work_costs,
+            stability.as_ref().and_then(stability::Stability::sentence),
+        ),
         failures: failures::views(results),
         claims: claims.map(|(c, j)| claim::claim(c, j, measured(&c.id))).collect(),
         rows: numbers::rows(results),
@@ -91,6 +99,7 @@ pub(super) fn page(results: &Results, cases: &[CaseResult]) -> Page {
         costs: work_costs,
         cost_tables: studies::costs(results),
         ablations: studies::ablations(results),
+        stability,
         cases: results.cases.iter().map(|c| case::view(c, measured(&c.id))).collect(),
         provenance: results.provenance.clone(),
         timings: results.cases.iter().map(|c| (c.id.clone(), seconds(c.seconds))).collect(),
