@@ -36,7 +36,8 @@ fn left_out(solved: &Solved) -> EffectUse {
     }
     match mismatch(solved) {
         Some(value) => {
-            let about = "how differently the two sides of a tie turn, over how far the model turns,".to_owned();
+            let about =
+                "how differently the two sides of a tie turn, over how far the model turns,".to_owned();
             watched(NAME, Indicator { about, value, limit: LARGE_MISMATCH })
         }
         None => off(NAME, "no tie asks for it, and nothing turns at the ties"),
