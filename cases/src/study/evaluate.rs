@@ -97,6 +97,11 @@ impl Readings {
         }
     }
 
+    /// What a probe read.
+    pub fn reading(&self, probe: &str) -> Option<&Reading> {
+        self.by_probe.get(probe)
+    }
+
     /// All of them, by probe.
     pub fn iter(&self) -> impl Iterator<Item = (&String, &Reading)> {
         self.by_probe.iter()
@@ -127,8 +132,17 @@ impl Tally {
 /// # Errors
 /// A fault of the scene, or what the solver refuses.
 pub fn solve(file: &SceneFile, tally: &Tally) -> Result<Solved> {
+    solve_changed(file, tally, |_| ())
+}
+
+/// The same with a change of the model between building and solving.
+///
+/// # Errors
+/// As [`solve`].
+pub fn solve_changed(file: &SceneFile, tally: &Tally, change: impl FnOnce(&mut Built)) -> Result<Solved> {
     let start = Instant::now();
-    let built = model::build(file)?;
+    let mut built = model::build(file)?;
+    change(&mut built);
     let mut solved = match &file.scene.dynamics {
         None => stand(file, built)?,
         Some(dynamics) => go(file, dynamics, built, start)?,

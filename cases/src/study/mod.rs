@@ -13,6 +13,7 @@ mod plots;
 mod quantities;
 mod reference;
 mod richardson;
+pub mod stability;
 
 use crate::error::{Error, Result};
 use crate::file::SceneFile;
