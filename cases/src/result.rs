@@ -8,7 +8,7 @@ mod effects;
 
 use crate::map::StabilityMap;
 use crate::margin::Margin;
-pub use cost::{CostDiagram, CostPoint, CostSetting};
+pub use cost::{CostDiagram, CostPoint, CostSetting, Growth};
 pub use effects::{Ablation, AblationChange, AblationRun, EffectUse, Expected, Indicator};
 use schemars::JsonSchema;
 use seam_solver::work::Work;
@@ -55,6 +55,9 @@ pub struct CaseResult {
     pub budgets: Vec<Budget>,
     /// Error against cost.
     pub costs: Vec<CostDiagram>,
+    /// How cost grows with size.
+    #[serde(default)]
+    pub growths: Vec<Growth>,
     /// Effects on and off.
     #[serde(default)]
     pub ablations: Vec<Ablation>,
@@ -75,6 +78,9 @@ pub struct CaseResult {
     pub seconds: f64,
     /// Things a reader must know (dropped constraint rows …).
     pub notes: Vec<String>,
+    /// Quantities that are known to fail, by id, each with the reason.
+    #[serde(default)]
+    pub expected_failures: BTreeMap<String, String>,
 }
 
 impl CaseResult {
@@ -83,6 +89,7 @@ impl CaseResult {
         replace(&mut self.quantities, study.quantities, |q| &q.id);
         replace(&mut self.curves, study.curves, |c| &c.id);
         replace(&mut self.costs, study.costs, |c| &c.id);
+        replace(&mut self.growths, study.growths, |g| &g.id);
         replace(&mut self.ablations, study.ablations, |a| &a.id);
         replace(&mut self.pictures, study.pictures, |p| &p.id);
         replace(&mut self.margins, study.margins, |m| &m.id);
@@ -224,6 +231,9 @@ pub struct Plot {
     pub log: [bool; 2],
     /// Relative half width of the tolerance band around the first reference series.
     pub band: Option<f64>,
+    /// What the first reference series is.
+    #[serde(default)]
+    pub against: ReferenceKind,
     /// Intervals of x to shade, e.g. the DE part.
     pub shaded: Vec<[f64; 2]>,
     /// The series.
@@ -373,4 +383,32 @@ pub struct Picture {
     pub supports: Vec<[f64; 2]>,
     /// Loads as start point and direction (unit vector).
     pub loads: Vec<[[f64; 2]; 2]>,
+    /// The bodies, for their names and dimensions.
+    #[serde(default)]
+    pub bodies: Vec<BodyOutline>,
+    /// The coupled faces.
+    #[serde(default)]
+    pub ties: Vec<TiedFace>,
+}
+
+/// A body of a picture.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct BodyOutline {
+    /// Name as in the scene file.
+    pub name: String,
+    /// `FE` or `DE`.
+    pub method: String,
+    /// Lower left and upper right corner of the box around its nodes or particles, undeformed, in metres.
+    pub extent: [[f64; 2]; 2],
+}
+
+/// A coupled face of a picture.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct TiedFace {
+    /// Name of the tie as in the scene file.
+    pub name: String,
+    /// How it is tied, e.g. `mortar`.
+    pub method: String,
+    /// Nodes or particles of its first face, in order along it, undeformed, in metres.
+    pub line: Vec<[f64; 2]>,
 }

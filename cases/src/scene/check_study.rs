@@ -57,6 +57,18 @@ pub fn check(scene: &Scene, values: &Values) -> Checked {
             variants(scene, names, &format!("{key}.settings.{setting}"))?;
         }
     }
+    for (name, growth) in &scene.growth {
+        let key = format!("growth.{name}");
+        variants(scene, &growth.variants, &format!("{key}.variants"))?;
+        // Two levels always lie on a line: an exponent needs three.
+        levels(&growth.levels, 3, &format!("{key}.levels"))?;
+        for (part, given) in [("work", Some(growth.work)), ("seconds", growth.seconds)] {
+            if given.is_some_and(|[low, high]| !(low <= high && low.is_finite() && high.is_finite())) {
+                let key = format!("{key}.{part}");
+                return Err(Fault::new(key, "the interval is empty", "give its lower end first"));
+            }
+        }
+    }
     for (name, ablation) in &scene.ablations {
         let key = format!("ablations.{name}");
         if !effects::NAMES.contains(&ablation.effect.as_str()) {

@@ -7,7 +7,9 @@ pub mod body;
 pub mod check;
 mod check_connection;
 mod check_dynamics;
+pub mod check_notched_beam;
 mod check_probe;
+mod check_size;
 mod check_study;
 mod check_switch;
 pub mod connection;
@@ -21,6 +23,7 @@ pub mod number;
 pub mod parameter;
 pub mod probe;
 pub mod quantity;
+mod simulated;
 pub mod study;
 pub mod switch;
 
@@ -60,13 +63,16 @@ pub struct Scene {
     /// Largest model that is run.
     #[serde(default)]
     pub limits: Limits,
+    /// Quantities that are known to fail, by id, each with the reason. One that passes raises an alarm.
+    #[serde(default)]
+    pub expected_failures: BTreeMap<String, String>,
     /// Effects to simulate: their names, or `["auto"]` for those that the tables ask for.
     #[serde(default = "auto")]
     pub effects: Vec<String>,
     /// Plane or solid.
     #[serde(default = "plane_stress")]
     pub hypothesis: Hypothesis,
-    /// Thickness in the plane, in m.
+    /// Thickness in the plane, in m; in the solid that of notched beams.
     #[serde(default = "unit_thickness")]
     pub thickness_m: number::Number,
     /// Named numbers.
@@ -129,9 +135,17 @@ pub struct Scene {
     /// Work–precision diagrams.
     #[serde(default)]
     pub costs: BTreeMap<String, study::CostDeclaration>,
+    /// How cost grows with size.
+    #[serde(default)]
+    pub growth: BTreeMap<String, study::GrowthDeclaration>,
     /// Effects that are switched on and off.
     #[serde(default)]
     pub ablations: BTreeMap<String, study::AblationDeclaration>,
+}
+
+/// JSON schema of a scene file, ending in a newline; published as `cases/scene.schema.json`.
+pub fn schema() -> String {
+    format!("{:#}\n", schemars::schema_for!(Scene).as_value())
 }
 
 fn yes() -> bool {
@@ -226,11 +240,15 @@ pub struct Limits {
     pub particles: usize,
     /// Most nodes of a body.
     pub nodes: usize,
+    /// Most stations of a line or a history.
+    pub stations: usize,
+    /// Most members of a family, seeds included.
+    pub members: usize,
 }
 
 impl Default for Limits {
     fn default() -> Self {
-        Self { particles: 200_000, nodes: 500_000 }
+        Self { particles: 200_000, nodes: 500_000, stations: 100_000, members: 100_000 }
     }
 }
 

@@ -7,12 +7,14 @@ mod digest;
 pub mod effects;
 mod evaluate;
 mod family;
+mod growth;
 mod kept;
 mod picture;
 mod plots;
 mod quantities;
 mod reference;
 mod richardson;
+mod sketch;
 pub mod stability;
 
 use crate::error::{Error, Result};
@@ -60,6 +62,7 @@ pub fn run(file: &SceneFile, tier: Tier) -> Result<Run> {
     result.families = family::all(&study)?;
     result.budgets = budget::all(&study)?;
     result.costs = cost::all(&study)?;
+    result.growths = growth::all(&study)?;
     result.ablations = effects::declared(&study)?;
     result.pictures = vec![picture::deformed(file, &solved)];
     result.switches = solved.course.as_ref().map_or_else(Vec::new, |course| course.switches.records());
@@ -137,6 +140,7 @@ pub fn head(file: &SceneFile, tier: Tier) -> CaseResult {
         scene_hash: file.hash(),
         command: command(file, tier),
         parameters: scene.parameters.iter().map(parameter).collect(),
+        expected_failures: scene.expected_failures.clone(),
         ..CaseResult::default()
     }
 }

@@ -13,6 +13,8 @@ pub mod family;
 mod ink;
 pub mod map;
 pub mod picture;
+mod shapes;
+pub mod sketch;
 mod ticks;
 
 pub use ink::Ink;

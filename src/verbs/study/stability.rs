@@ -18,7 +18,7 @@ const HARD: &str = "hard";
 pub fn stability(words: &Stability) -> Result<Exit> {
     let Stability { cases, overrides, out, running } = words;
     let cases = if cases.is_empty() { hard()? } else { cases.clone() };
-    let studied = Studied { cases, overrides: overrides.clone(), out: out.clone(), running: running.clone() };
+    let studied = Studied { cases, overrides: overrides.clone(), out: out.clone(), running: *running };
     let files = super::scenes(&studied)?;
     let progress = Progress::new(files.len(), running.quiet);
     let mut found = Vec::new();

@@ -75,7 +75,13 @@ pub fn all_elements(scene: &Scene) -> Option<Setting> {
                 .values()
                 .find_map(|b| b.fe.as_ref())
                 .map_or_else(Formulation::default, |fe| fe.formulation);
-            let fe = Fe { divisions: cells(body)?, grading: Vec::new(), formulation, distortion: None };
+            let fe = Fe {
+                divisions: cells(body)?,
+                grading: Vec::new(),
+                formulation,
+                distortion: None,
+                refinement: None,
+            };
             changes.push(change(format!("bodies.{name}.fe"), fe));
         }
     }
