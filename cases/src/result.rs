@@ -8,7 +8,7 @@ mod effects;
 
 use crate::map::StabilityMap;
 use crate::margin::Margin;
-pub use cost::{CostDiagram, CostPoint, CostSetting};
+pub use cost::{CostDiagram, CostPoint, CostSetting, Growth};
 pub use effects::{Ablation, AblationChange, AblationRun, EffectUse, Expected, Indicator};
 use schemars::JsonSchema;
 use seam_solver::work::Work;
@@ -55,6 +55,9 @@ pub struct CaseResult {
     pub budgets: Vec<Budget>,
     /// Error against cost.
     pub costs: Vec<CostDiagram>,
+    /// How cost grows with size.
+    #[serde(default)]
+    pub growths: Vec<Growth>,
     /// Effects on and off.
     #[serde(default)]
     pub ablations: Vec<Ablation>,
@@ -86,6 +89,7 @@ impl CaseResult {
         replace(&mut self.quantities, study.quantities, |q| &q.id);
         replace(&mut self.curves, study.curves, |c| &c.id);
         replace(&mut self.costs, study.costs, |c| &c.id);
+        replace(&mut self.growths, study.growths, |g| &g.id);
         replace(&mut self.ablations, study.ablations, |a| &a.id);
         replace(&mut self.pictures, study.pictures, |p| &p.id);
         replace(&mut self.margins, study.margins, |m| &m.id);
@@ -227,6 +231,9 @@ pub struct Plot {
     pub log: [bool; 2],
     /// Relative half width of the tolerance band around the first reference series.
     pub band: Option<f64>,
+    /// What the first reference series is.
+    #[serde(default)]
+    pub against: ReferenceKind,
     /// Intervals of x to shade, e.g. the DE part.
     pub shaded: Vec<[f64; 2]>,
     /// The series.

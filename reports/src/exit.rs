@@ -72,18 +72,25 @@ impl CaseJudgement {
         let nothing = self.quantities.is_empty()
             && self.claims.is_empty()
             && self.curves.is_empty()
-            && self.margins.is_empty();
+            && self.margins.is_empty()
+            && self.costs.is_empty()
+            && self.ablations.is_empty();
         nothing
             || self.quantities.iter().any(|q| q.value.is_none() || q.verdict == Some(Verdict::Undetermined))
             || self.curves.iter().any(|c| c.verdict == Verdict::Undetermined)
             || self.margins.iter().any(|m| m.verdict == Verdict::Undetermined)
             || self.claims.iter().any(|c| c.unmeasured.is_some())
+            || self.ablations.iter().any(|a| a.verdict == Some(Verdict::Undetermined))
+            || self.timed.iter().any(|t| t.seconds_verdict == Verdict::Undetermined)
     }
 
-    /// Whether a number, a curve, a margin or a claim failed, one that should have failed did not, or a tolerance is
-    /// looser than recorded.
+    /// Whether a number, a curve, a margin, a claim or an ablation failed, one that should have failed did not, a tolerance
+    /// is looser than recorded, or the result is not trusted.
     pub fn failed(&self) -> bool {
-        self.quantities.iter().any(|q| q.failed() || q.passes_again())
+        !self.trusted
+            || self.ablations.iter().any(|a| a.verdict == Some(Verdict::Fail))
+            || self.timed.iter().any(|t| t.seconds_verdict == Verdict::Fail)
+            || self.quantities.iter().any(|q| q.failed() || q.passes_again())
             || self.curves.iter().any(|c| c.verdict == Verdict::Fail)
             || self.margins.iter().any(|m| m.verdict == Verdict::Fail)
             || self.claims.iter().any(ClaimResult::failed)

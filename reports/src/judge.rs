@@ -1,6 +1,5 @@
 //! From measured results to judged ones.
 
-use crate::claims;
 use crate::compare::{CurveComparison, LEAST_COVERAGE, Tolerance, compare_curves, headroom, signed_error};
 use crate::loosened;
 use crate::margins;
@@ -8,6 +7,7 @@ use crate::record::{self, Recorded};
 use crate::results::{CaseJudgement, ClaimResult, CurveResult, Provenance, QuantityResult, Results, SCHEMA};
 use crate::statistics::convergence::fitted_order;
 use crate::verdict::{Verdict, of_quantity};
+use crate::{ablation, claims, cost, growth};
 use seam_cases::result::{CaseResult, Convergence, Family, Observation, Plot, ReferenceKind, Role, Series};
 use std::collections::BTreeSet;
 
@@ -23,7 +23,8 @@ pub fn judge(cases: &[CaseResult], provenance: Provenance, recorded: &Recorded) 
 /// Judges every number, curve and claim of one case.
 pub fn judge_case(case: &CaseResult, recorded: &Recorded) -> CaseJudgement {
     let orders = case.convergence.iter().filter_map(order_of);
-    let observed = case.quantities.iter().cloned().chain(orders);
+    let growths = case.growths.iter().map(growth::of_work);
+    let observed = case.quantities.iter().cloned().chain(orders).chain(growths);
     let quantities: Vec<QuantityResult> = observed
         .map(|o| {
             let last = recorded.value(&case.tier, &case.id, &o.id);
@@ -51,6 +52,10 @@ pub fn judge_case(case: &CaseResult, recorded: &Recorded) -> CaseJudgement {
             .iter()
             .map(|m| margins::judge(m, recorded.margin(&case.tier, &case.id, &m.id)))
             .collect(),
+        trusted: case.effects.iter().all(|effect| !effect.called_for),
+        costs: case.costs.iter().map(cost::judge).collect(),
+        timed: case.growths.iter().filter_map(growth::of_seconds).collect(),
+        ablations: case.ablations.iter().map(ablation::judge).collect(),
         work: case.work,
         recorded_work: work.map(|w| w.total),
         recorded_counters: work.map_or_else(Default::default, |w| w.counters.clone()),
@@ -131,6 +136,7 @@ fn judge_curve(plot: &Plot, model: &Series, reference: &Series) -> CurveResult {
     CurveResult {
         plot: plot.id.clone(),
         series: model.name.clone(),
+        kind: plot.against,
         coverage,
         e2: comparison.as_ref().and_then(|c| c.e2),
         e_max: comparison.as_ref().and_then(|c| c.e_max),

@@ -8,7 +8,7 @@ use crate::claims::meaning;
 use crate::failure::interval;
 use crate::format::{self, percent, share, signed_percent, significant};
 use crate::markdown::escape;
-use crate::plots::cost::{Cost, cheapest};
+use crate::plots::cost::{Cost, work_precision};
 use crate::results::{CaseJudgement, QuantityResult, Results};
 use crate::terminal::kind_name;
 use seam_cases::result::{Budget, CaseResult};
@@ -25,6 +25,7 @@ pub fn document(results: &Results, cases: &[CaseResult]) -> String {
         claims(results),
         costs(&measured),
         budgets(&measured),
+        margins(results),
         format!("## Numbers\n\n{}", results.cases.iter().map(numbers).collect::<String>()),
     ];
     parts.concat()
@@ -63,13 +64,11 @@ fn claims(results: &Results) -> String {
     section("Claims", claims.into_iter().map(one).collect())
 }
 
+/// What the work–precision diagrams end in.
 fn costs(cases: &[&CaseResult]) -> String {
-    let diagrams = cases.iter().flat_map(|c| &c.costs);
-    let one = |d| {
-        let d: &seam_cases::result::CostDiagram = d;
-        format!("- {}: {}\n", escape(&d.title), escape(&cheapest(d, Cost::Work)))
-    };
-    let list: String = diagrams.map(one).collect();
+    let figures = cases.iter().flat_map(|c| &c.costs).flat_map(|d| work_precision(d, Cost::Work));
+    let told = figures.filter(|f| !f.note.is_empty());
+    let list: String = told.map(|f| format!("- {}: {}\n", escape(&f.title), escape(&f.note))).collect();
     section("What accuracy costs", if list.is_empty() { list } else { list + "\n" })
 }
 
@@ -91,6 +90,28 @@ fn budgets(cases: &[&CaseResult]) -> String {
         text + &format!("| **total** | {} | | |\n\n", signed_percent(b.total))
     };
     section("Error budgets", cases.iter().flat_map(|c| &c.budgets).map(one).collect())
+}
+
+fn margins(results: &Results) -> String {
+    let rows = results.cases.iter().flat_map(|c| &c.margins).map(|m| {
+        let value = m.value.map_or("not measured".to_owned(), |v| with_unit(v, &m.unit));
+        format!(
+            "| {} | {} | {} | {}{value} | {} | {} |\n",
+            escape(&m.row),
+            escape(&m.label),
+            escape(&m.axis),
+            if m.open { "≥ " } else { "" },
+            with_unit(m.needed, &m.unit),
+            m.verdict
+        )
+    });
+    let rows: String = rows.collect();
+    if rows.is_empty() {
+        return rows;
+    }
+    let head =
+        "| hard case | body and scheme | raised | margin | needed | verdict |\n|---|---|---|---:|---:|---|\n";
+    section("Stability margins", format!("{head}{rows}\n"))
 }
 
 /// A heading with what stands under it; nothing without that.

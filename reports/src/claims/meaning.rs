@@ -31,14 +31,15 @@ pub fn paragraph(c: &ClaimResult) -> String {
         sentences.extend(c.needed.map(|n| paper_like(c, n)));
     }
     if !c.complete {
-        let recorded = c.recorded_full.as_ref().map_or(String::new(), |full| {
-            format!(
-                "; the whole family, as recorded, gives {} of settings, {}",
+        sentences.push(match &c.recorded_full {
+            Some(full) => format!(
+                "This run tries a stated subset of the family; over the whole of it, as recorded, {} of the settings meet {} ({}).",
                 share(full.share),
+                percent(c.bound),
                 full.verdict
-            )
+            ),
+            None => "This run tries a stated subset of the family.".to_owned(),
         });
-        sentences.push(format!("This run tries a stated subset of the family{recorded}."));
     }
     sentences.join(" ")
 }

@@ -2,7 +2,7 @@
 
 use super::shapes::{View, arrow, bonds, circles, path, polygons, supports, thinned};
 use super::{Figure, LegendEntry, csv_line, open_svg};
-use crate::format::significant;
+use crate::format::{count, significant};
 use seam_cases::result::Picture;
 
 /// Room around the bodies for supports and arrows.
@@ -14,11 +14,11 @@ pub fn picture(p: &Picture) -> Option<Figure> {
     let particles = if p.deformed_particles.is_empty() { &p.particles } else { &p.deformed_particles };
     let drawn = [&p.elements, elements].into_iter().flatten().flatten().chain(&p.particles).chain(particles);
     let view = View::over(drawn, MARGIN, MARGIN)?;
+    let counts = [(p.elements.len(), "element"), (p.particles.len(), "particle"), (p.bonds.len(), "bond")];
+    let there = counts.into_iter().filter(|(n, _)| *n > 0).map(|(n, noun)| count(n, noun));
     let description = format!(
-        "{} elements, {} particles and {} bonds; displacements enlarged {} times",
-        p.elements.len(),
-        p.particles.len(),
-        p.bonds.len(),
+        "{}; displacements enlarged {} times",
+        there.collect::<Vec<_>>().join(", "),
         significant(p.scale, 3)
     );
     let title = "Deformed shape".to_owned();

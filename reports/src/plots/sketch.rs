@@ -8,7 +8,7 @@ use seam_cases::result::{BodyOutline, Picture};
 /// Room at the sides, for the height and its number.
 const SIDES: f64 = 120.0;
 /// Room above and below, for names and lengths.
-const ABOVE: f64 = 110.0;
+const ABOVE: f64 = 104.0;
 /// Width of a letter at the size that narrow windows use.
 const LETTER: f64 = 20.0;
 
@@ -56,7 +56,7 @@ fn name(view: &View, b: &BodyOutline) -> String {
     let [middle, top] = view.at([0.5 * (x0 + x1), y1]);
     let text = format!("{} · {}", b.name, b.method);
     if fits(&text, view.scale * (x1 - x0)) {
-        label(middle, top - 62.0, "middle", &text)
+        label(middle, top - 58.0, "middle", &text)
     } else {
         String::new()
     }

@@ -4,6 +4,7 @@ mod changes;
 mod differences;
 mod failures;
 mod margins;
+pub(crate) mod studies;
 mod style;
 
 pub use changes::changes;
@@ -33,6 +34,7 @@ pub fn table(results: &Results, style: Style) -> String {
         results.cases.iter().for_each(|c| out.push_str(&case(c, style)));
     }
     out.push_str(&margins::table(results, style));
+    out.push_str(&studies::sections(results, style));
     out.push_str(&failures::blocks(results, style));
     out.push_str(&failures::less_work(results));
     out.push_str(&closing(results));

@@ -1,5 +1,7 @@
 //! What the part of a case shows.
 
+use super::switches::{self, Switches};
+use crate::activity::Activity;
 use crate::format::{self, percent, share};
 use crate::html::prose;
 use crate::plots::{self, Figure};
@@ -22,7 +24,8 @@ pub(crate) struct Case {
     pub(super) figures: Vec<Figure>,
     pub(super) sketches: Vec<Figure>,
     pub(super) pictures: Vec<Figure>,
-    curves: Vec<[String; 6]>,
+    curves: Vec<[String; 7]>,
+    switches: Option<Switches>,
     work: Vec<(&'static str, String)>,
     notes: Vec<String>,
 }
@@ -54,6 +57,7 @@ pub(super) fn view(judged: &CaseJudgement, measured: Option<&CaseResult>) -> Cas
         sketches: m.pictures.iter().filter_map(plots::sketch::sketch).collect(),
         pictures: m.pictures.iter().filter_map(plots::picture::picture).collect(),
         curves: judged.curves.iter().map(curve).collect(),
+        switches: switches::view(&m.switches),
         work: work(judged),
         notes: m.notes.clone(),
     }
@@ -61,17 +65,18 @@ pub(super) fn view(judged: &CaseJudgement, measured: Option<&CaseResult>) -> Cas
 
 fn parameter(p: &Parameter) -> [String; 4] {
     let unit = if p.unit == "1" { String::new() } else { p.unit.clone() };
-    [p.name.clone(), format::value(p.value), unit, p.about.clone()]
+    [p.name.clone(), format::typeset(&format::value(p.value)), unit, p.about.clone()]
 }
 
-fn curve(c: &CurveResult) -> [String; 6] {
+fn curve(c: &CurveResult) -> [String; 7] {
     let of = |e: Option<f64>| e.map_or("–".to_owned(), percent);
     let state = match c.verdict {
         Verdict::Pass => "compared",
         Verdict::Fail => "covers too little",
         Verdict::Undetermined => "not comparable",
     };
-    [c.plot.clone(), c.series.clone(), share(c.coverage), of(c.e2), of(c.e_max), state.to_owned()]
+    let activity = Activity::against(c.kind).name().to_owned();
+    [c.plot.clone(), c.series.clone(), activity, share(c.coverage), of(c.e2), of(c.e_max), state.to_owned()]
 }
 
 /// The counters that are not zero.

@@ -61,6 +61,11 @@ pub(super) fn section(results: &Results, cases: &[CaseResult]) -> Option<Stabili
 }
 
 impl Stability {
+    /// How many margins hold, and which is the closest; nothing where only maps were drawn.
+    pub(super) fn sentence(&self) -> Option<&str> {
+        Some(self.sentence.as_str()).filter(|s| !s.is_empty())
+    }
+
     pub(super) fn maps(&self) -> &[Figure] {
         &self.maps
     }
