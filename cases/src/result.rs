@@ -8,7 +8,7 @@ mod effects;
 
 use crate::map::StabilityMap;
 use crate::margin::Margin;
-pub use cost::{CostDiagram, CostPoint, CostSetting};
+pub use cost::{CostDiagram, CostPoint, CostSetting, Growth};
 pub use effects::{Ablation, AblationChange, AblationRun, EffectUse, Expected, Indicator};
 use schemars::JsonSchema;
 use seam_solver::work::Work;
@@ -55,6 +55,9 @@ pub struct CaseResult {
     pub budgets: Vec<Budget>,
     /// Error against cost.
     pub costs: Vec<CostDiagram>,
+    /// How cost grows with size.
+    #[serde(default)]
+    pub growths: Vec<Growth>,
     /// Effects on and off.
     #[serde(default)]
     pub ablations: Vec<Ablation>,
@@ -75,6 +78,9 @@ pub struct CaseResult {
     pub seconds: f64,
     /// Things a reader must know (dropped constraint rows …).
     pub notes: Vec<String>,
+    /// Quantities that are known to fail, by id, each with the reason.
+    #[serde(default)]
+    pub expected_failures: BTreeMap<String, String>,
 }
 
 impl CaseResult {
@@ -83,6 +89,7 @@ impl CaseResult {
         replace(&mut self.quantities, study.quantities, |q| &q.id);
         replace(&mut self.curves, study.curves, |c| &c.id);
         replace(&mut self.costs, study.costs, |c| &c.id);
+        replace(&mut self.growths, study.growths, |g| &g.id);
         replace(&mut self.ablations, study.ablations, |a| &a.id);
         replace(&mut self.pictures, study.pictures, |p| &p.id);
         replace(&mut self.margins, study.margins, |m| &m.id);

@@ -152,10 +152,9 @@ fn front(diagram: &CostDiagram) -> Vec<FrontPoint> {
 }
 
 fn growth(setting: &CostSetting) -> Option<Growth> {
-    let points: Vec<&CostPoint> = setting.points.iter().filter(|p| p.error.is_some() && p.unknowns > 0).collect();
-    let of = |cost: &dyn Fn(&CostPoint) -> f64| {
-        exponent(points.iter().map(|p| (p.unknowns as f64, cost(p))))
-    };
+    let points: Vec<&CostPoint> =
+        setting.points.iter().filter(|p| p.error.is_some() && p.unknowns > 0).collect();
+    let of = |cost: &dyn Fn(&CostPoint) -> f64| exponent(points.iter().map(|p| (p.unknowns as f64, cost(p))));
     Some(Growth {
         setting: setting.name.clone(),
         levels: points.len(),

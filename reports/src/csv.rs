@@ -2,10 +2,10 @@
 
 use crate::results::{Results, ResultsError, write_whole};
 use crate::terminal::kind_name;
-use seam_cases::result::{CaseResult, Family};
+use seam_cases::result::{CaseResult, CostDiagram, Family};
 use std::path::Path;
 
-/// Writes `errors.csv`, `margins.csv` and, per case, `<case>/family-<claim>.csv`.
+/// Writes `errors.csv`, `margins.csv` and, per case, `<case>/family-<claim>.csv` and `<case>/cost-<diagram>.csv`.
 ///
 /// # Errors
 /// A file cannot be written.
@@ -14,6 +14,10 @@ pub fn write(results: &Results, cases: &[CaseResult], folder: &Path) -> Result<(
     write_whole(&folder.join("margins.csv"), &margins(results)?)?;
     for case in cases {
         let folder = folder.join(file_name(&case.id));
+        for diagram in &case.costs {
+            let file = format!("cost-{}.csv", file_name(&diagram.id));
+            write_whole(&folder.join(file), &points(diagram)?)?;
+        }
         for family in &case.families {
             write_whole(&folder.join(format!("family-{}.csv", file_name(&family.claim))), &members(family)?)?;
         }
@@ -81,6 +85,28 @@ pub fn members(family: &Family) -> Result<String, ResultsError> {
         row
     });
     text(header, rows)
+}
+
+/// One row per point of a cost diagram: error, spread over packings, size, counted work, seconds, memory, why it is a gap.
+///
+/// # Errors
+/// None in practice: the text is written to memory.
+pub fn points(diagram: &CostDiagram) -> Result<String, ResultsError> {
+    let header = "setting,level,error,error_lo,error_hi,particles,unknowns,work,calibration_work,steps,seconds,seconds_lo,\
+                  seconds_hi,memory_mb,failed";
+    let rows = diagram.settings.iter().flat_map(|s| {
+        s.points.iter().map(|p| {
+            let [lo, hi] = p.spread.map_or([None, None], |spread| spread.map(Some));
+            let mut row = vec![s.name.clone(), p.level.clone(), number(p.error), number(lo), number(hi)];
+            row.extend([p.particles, p.unknowns].map(|n| n.to_string()));
+            row.extend([p.work.total(), p.calibration_work, p.work.steps].map(|n| n.to_string()));
+            let [shortest, longest] = p.seconds_spread;
+            row.extend([Some(p.seconds), Some(shortest), Some(longest), p.memory_mb].map(number));
+            row.push(p.failed.clone().unwrap_or_default());
+            row
+        })
+    });
+    text(header.split(',').map(str::to_owned).collect(), rows)
 }
 
 /// An id as part of a file name: it must not lead out of the folder.

@@ -4,15 +4,23 @@
 //! of every view: [`results::Results::write`] (`results.json`), [`terminal::table`], [`csv`],
 //! [`markdown`] and [`html`].
 
+pub mod ablation;
 pub mod activity;
+pub mod baseline;
+pub mod bless;
 pub mod claims;
 pub mod compare;
+pub mod cost;
+pub mod counted;
 pub mod csv;
 pub mod exit;
 pub mod failure;
 pub mod format;
+pub mod growth;
 pub mod html;
 pub mod judge;
+pub mod junit;
+pub mod loosened;
 pub mod margins;
 pub mod markdown;
 pub mod plots;

@@ -73,3 +73,26 @@ pub struct CostPoint {
     #[serde(default)]
     pub memory_mb: Option<f64>,
 }
+
+/// Cost over size at several levels, and what is promised of its exponent p in `cost ∝ sizeᵖ`.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct Growth {
+    /// Unique within the case.
+    pub id: String,
+    /// What is done, in words.
+    pub label: String,
+    /// What size is counted in.
+    pub size_label: String,
+    /// Size at each level.
+    pub size: Vec<f64>,
+    /// Counted work at each level.
+    pub work: Vec<f64>,
+    /// Wall seconds at each level; empty where they were not measured. Not deterministic.
+    pub seconds: Vec<f64>,
+    /// Interval of the exponent of counted work; `None` shows it only.
+    pub accepted_work: Option<[f64; 2]>,
+    /// Interval of the exponent of wall time; `None` where nothing is promised.
+    pub accepted_seconds: Option<[f64; 2]>,
+    /// Why the intervals are as wide as they are.
+    pub why: String,
+}

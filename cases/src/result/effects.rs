@@ -90,7 +90,7 @@ pub struct AblationRun {
 }
 
 /// A quantity with an effect and without it.
-#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct AblationChange {
     /// The quantity, in words.
     pub label: String,

@@ -17,6 +17,11 @@ use serde_json::Value;
 /// # Errors
 /// The first fault, with its key.
 pub fn check(scene: &Scene, values: &Values) -> Checked {
+    for (name, probe) in &scene.probes {
+        for (legend, names) in &probe.beside {
+            variants(scene, names, &format!("probes.{name}.beside.{legend}"))?;
+        }
+    }
     for (name, quantity) in &scene.quantities {
         check_quantity(scene, name, quantity, values)?;
     }
@@ -55,6 +60,18 @@ pub fn check(scene: &Scene, values: &Values) -> Checked {
         }
         for (setting, names) in &cost.settings {
             variants(scene, names, &format!("{key}.settings.{setting}"))?;
+        }
+    }
+    for (name, growth) in &scene.growth {
+        let key = format!("growth.{name}");
+        variants(scene, &growth.variants, &format!("{key}.variants"))?;
+        // Two levels always lie on a line: an exponent needs three.
+        levels(&growth.levels, 3, &format!("{key}.levels"))?;
+        for (part, given) in [("work", Some(growth.work)), ("seconds", growth.seconds)] {
+            if given.is_some_and(|[low, high]| !(low <= high && low.is_finite() && high.is_finite())) {
+                let key = format!("{key}.{part}");
+                return Err(Fault::new(key, "the interval is empty", "give its lower end first"));
+            }
         }
     }
     for (name, ablation) in &scene.ablations {

@@ -96,7 +96,7 @@ impl Scene {
         match &mut self.dynamics {
             Some(dynamics) => {
                 self.left_out.damping = turn_damping(dynamics, damping)?;
-                turn_inertia(dynamics, inertia);
+                turn_inertia(dynamics, inertia, !self.switches.is_empty());
                 dynamics.rotations = if finite { Rotations::Finite } else { Rotations::Small };
                 Ok(())
             }
@@ -142,12 +142,16 @@ fn turn_damping(dynamics: &mut Dynamics, on: bool) -> Result<Option<Damping>, Fa
 }
 
 /// Without inertia a run is a row of equilibria; with it equilibria become implicit steps.
-fn turn_inertia(dynamics: &mut Dynamics, on: bool) {
+fn turn_inertia(dynamics: &mut Dynamics, on: bool, switches: bool) {
     match (on, dynamics.stepping) {
         (true, Stepping::QuasiStatic) => dynamics.stepping = Stepping::Implicit,
         (true, _) | (false, Stepping::QuasiStatic) => {}
         (false, _) => {
-            let step = dynamics.step_s.take().unwrap_or_else(|| between_outputs(dynamics));
+            // Equilibria need no steps of their own, unless a switch has to find its moment among them.
+            let step = match dynamics.step_s.take() {
+                Some(step) if switches => step,
+                _ => between_outputs(dynamics),
+            };
             *dynamics = Dynamics {
                 stepping: Stepping::QuasiStatic,
                 step_s: Some(step),

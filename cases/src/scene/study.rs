@@ -243,3 +243,38 @@ pub struct AblationDeclaration {
     /// Why the tolerance is as wide as it is.
     pub why: String,
 }
+
+/// `[growth.NAME]`: how cost grows with size.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct GrowthDeclaration {
+    /// What is done, in words.
+    pub label: String,
+    /// When it is run.
+    #[serde(default = "super::both_tiers")]
+    pub tiers: Vec<Tier>,
+    /// Variants of the scene.
+    #[serde(default)]
+    pub variants: Vec<String>,
+    /// Sizes.
+    pub levels: Levels,
+    /// What is counted, and over what.
+    pub of: GrowthOf,
+    /// Interval of the exponent of counted work.
+    pub work: [f64; 2],
+    /// Interval of the exponent of wall time; without it time is not measured.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub seconds: Option<[f64; 2]>,
+    /// Why the intervals are as wide as they are.
+    pub why: String,
+}
+
+/// What cost is counted over what size.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum GrowthOf {
+    /// Bond updates, and time in the steps, per step, over bonds.
+    BondUpdatesPerStep,
+    /// Entries of the factor, and time of the factorisation, over unknowns.
+    FactorEntries,
+}

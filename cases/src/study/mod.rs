@@ -7,6 +7,7 @@ mod digest;
 pub mod effects;
 mod evaluate;
 mod family;
+mod growth;
 mod kept;
 mod picture;
 mod plots;
@@ -15,6 +16,7 @@ mod reference;
 mod richardson;
 mod sketch;
 
+use crate::checkpoint::Checkpoints;
 use crate::error::{Error, Result};
 use crate::file::SceneFile;
 use crate::folder::Folder;
@@ -39,17 +41,17 @@ pub struct Run {
     pub fields: Option<(Model, Solution)>,
 }
 
-/// Runs a scene with all its studies.
+/// Runs a scene with all its studies; checkpoints are of its own run in time.
 ///
 /// # Errors
 /// A fault of the scene or a refusal of the solver, outside of families and cost diagrams, whose
 /// members may fail one by one.
-pub fn run(file: &SceneFile, tier: Tier) -> Result<Run> {
+pub fn run(file: &SceneFile, tier: Tier, checkpoints: &Checkpoints) -> Result<Run> {
     let start = Instant::now();
     let tally = Tally::default();
     let library = Library::default();
     let study = Study { file, tier, tally: &tally, library: &library };
-    let solved = evaluate::solve(file, &tally)?;
+    let solved = evaluate::solve_keeping(file, &tally, checkpoints)?;
     let mut result = head(file, tier);
     result.effects = effects::used(file, &solved);
     result.notes = [solved.built.notes.clone(), solved.solution.notes.clone()].concat();
@@ -60,6 +62,7 @@ pub fn run(file: &SceneFile, tier: Tier) -> Result<Run> {
     result.families = family::all(&study)?;
     result.budgets = budget::all(&study)?;
     result.costs = cost::all(&study)?;
+    result.growths = growth::all(&study)?;
     result.ablations = effects::declared(&study)?;
     result.pictures = vec![picture::deformed(file, &solved)];
     result.switches = solved.course.as_ref().map_or_else(Vec::new, |course| course.switches.records());
@@ -137,6 +140,7 @@ pub fn head(file: &SceneFile, tier: Tier) -> CaseResult {
         scene_hash: file.hash(),
         command: command(file, tier),
         parameters: scene.parameters.iter().map(parameter).collect(),
+        expected_failures: scene.expected_failures.clone(),
         ..CaseResult::default()
     }
 }

@@ -35,6 +35,7 @@ sections! {
     "budget": "Error budget",
     "cost": "What accuracy costs",
     "stability": "Stability margins",
+    "effects": "Effects on and off",
     "cases": "Cases",
     "provenance": "Provenance",
     "machine": "Machine and timings",

@@ -7,6 +7,8 @@ mod claim;
 mod failures;
 mod numbers;
 mod stability;
+mod studies;
+mod switches;
 
 use crate::activity::Activity;
 use crate::exit::Exit;
@@ -33,11 +35,16 @@ pub(super) struct Page {
     budgets: Vec<budget::BudgetView>,
     costs: Vec<Figure>,
     stability: Option<stability::Stability>,
+    cost_tables: Vec<studies::CostView>,
+    ablations: Vec<studies::AblationView>,
     cases: Vec<case::Case>,
     provenance: Provenance,
     timings: Vec<(String, String)>,
     seconds: String,
     second_costs: Vec<Figure>,
+    second_advantages: Vec<[String; 4]>,
+    stages: Vec<studies::StageView>,
+    timed: Vec<[String; 4]>,
 }
 
 impl Page {
@@ -69,7 +76,7 @@ pub(super) fn page(results: &Results, cases: &[CaseResult]) -> Page {
     let with = |v| quantities().filter(|q| q.verdict == Some(v)).count();
     let shown = || results.cases.iter().filter_map(|c| measured(&c.id));
     let costs =
-        |cost| shown().flat_map(|c| &c.costs).filter_map(|d| plots::cost::work_precision(d, cost)).collect();
+        |cost| shown().flat_map(|c| &c.costs).flat_map(|d| plots::cost::work_precision(d, cost)).collect();
     let claims = results.cases.iter().flat_map(|c| c.claims.iter().map(move |j| (c, j)));
     let budgets = shown().flat_map(|c| c.budgets.iter().filter_map(|b| budget::view(&c.id, b)));
     let outcome = results.exit(true);
@@ -91,12 +98,17 @@ pub(super) fn page(results: &Results, cases: &[CaseResult]) -> Page {
         bias: plots::bias::scatter(results).into_iter().collect(),
         budgets: budgets.collect(),
         costs: work_costs,
+        cost_tables: studies::costs(results),
+        ablations: studies::ablations(results),
         stability,
         cases: results.cases.iter().map(|c| case::view(c, measured(&c.id))).collect(),
         provenance: results.provenance.clone(),
         timings: results.cases.iter().map(|c| (c.id.clone(), seconds(c.seconds))).collect(),
         seconds: seconds(results.cases.iter().map(|c| c.seconds).sum()),
         second_costs: costs(Cost::Seconds),
+        second_advantages: studies::in_seconds(results),
+        stages: shown().flat_map(|c| c.costs.iter().map(|d| studies::stages(&c.id, d))).collect(),
+        timed: studies::timed(results),
     }
 }
 
