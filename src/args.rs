@@ -185,6 +185,8 @@ pub enum Study {
     Cost(Cost),
     /// Each effect on and off: what it changes, what it costs, and whether the scene calls for it
     Effects(Studied),
+    /// Margins of the hard cases; of a scene the digits that survive rounding, its longest step, its drift of energy
+    Stability(Stability),
     /// One run of a scene and the memory it takes
     #[command(hide = true)]
     Alone(Alone),
@@ -209,6 +211,23 @@ pub struct Alone {
     /// Set a key of the scene
     #[arg(long = "set")]
     pub overrides: Vec<String>,
+}
+
+/// `seam study stability`
+#[derive(Debug, Args)]
+pub struct Stability {
+    /// Ids of the catalogue or paths of scene files; the hard cases if none is given
+    #[arg(value_name = "ID|SCENE.toml")]
+    pub cases: Vec<String>,
+    /// Set a key of the scene, e.g. --set parameters.rows=16
+    #[arg(long = "set", value_name = "KEY.PATH=VALUE")]
+    pub overrides: Vec<String>,
+    /// Folder for results; a study lies beside the run of its case
+    #[arg(long, value_name = "DIR", default_value = "out")]
+    pub out: PathBuf,
+    /// How the cases are run
+    #[command(flatten)]
+    pub running: Running,
 }
 
 /// What a study is of.

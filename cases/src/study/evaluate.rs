@@ -98,6 +98,11 @@ impl Readings {
         }
     }
 
+    /// What a probe read.
+    pub fn reading(&self, probe: &str) -> Option<&Reading> {
+        self.by_probe.get(probe)
+    }
+
     /// All of them, by probe.
     pub fn iter(&self) -> impl Iterator<Item = (&String, &Reading)> {
         self.by_probe.iter()
@@ -128,7 +133,7 @@ impl Tally {
 /// # Errors
 /// A fault of the scene, or what the solver refuses.
 pub fn solve(file: &SceneFile, tally: &Tally) -> Result<Solved> {
-    solve_keeping(file, tally, &Checkpoints::default())
+    solve_with(file, tally, &Checkpoints::default(), |_| ())
 }
 
 /// The same with checkpoints of a run in time.
@@ -136,8 +141,26 @@ pub fn solve(file: &SceneFile, tally: &Tally) -> Result<Solved> {
 /// # Errors
 /// As [`solve`]; a checkpoint that cannot be read, written or used.
 pub fn solve_keeping(file: &SceneFile, tally: &Tally, checkpoints: &Checkpoints) -> Result<Solved> {
+    solve_with(file, tally, checkpoints, |_| ())
+}
+
+/// The same with a change of the model between building and solving.
+///
+/// # Errors
+/// As [`solve`].
+pub fn solve_changed(file: &SceneFile, tally: &Tally, change: impl FnOnce(&mut Built)) -> Result<Solved> {
+    solve_with(file, tally, &Checkpoints::default(), change)
+}
+
+fn solve_with(
+    file: &SceneFile,
+    tally: &Tally,
+    checkpoints: &Checkpoints,
+    change: impl FnOnce(&mut Built),
+) -> Result<Solved> {
     let start = Instant::now();
-    let built = model::build(file)?;
+    let mut built = model::build(file)?;
+    change(&mut built);
     let mut solved = match &file.scene.dynamics {
         None => stand(file, built)?,
         Some(dynamics) => go(file, dynamics, built, (checkpoints, start))?,

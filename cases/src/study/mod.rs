@@ -15,6 +15,7 @@ mod quantities;
 mod reference;
 mod richardson;
 mod sketch;
+pub mod stability;
 
 use crate::checkpoint::Checkpoints;
 use crate::error::{Error, Result};
