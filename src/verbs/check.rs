@@ -26,7 +26,8 @@ pub fn judge_into(
     references: BTreeMap<String, String>,
     folder: &Path,
 ) -> Result<Results> {
-    let judged = results::judged(cases, references)?;
+    let mut judged = results::judged(cases, references)?;
+    judged.race = results::race(folder)?;
     judged.write(&folder.join("results.json"))?;
     Ok(judged)
 }

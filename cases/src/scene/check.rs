@@ -3,7 +3,7 @@
 use super::body::{Body, Method};
 use super::de::{Arrangement, Calibrate, De};
 use super::number::Number;
-use super::{Scene, check_connection, check_dynamics, check_probe, check_study, check_switch};
+use super::{Scene, check_connection, check_dynamics, check_peer, check_probe, check_study, check_switch};
 use crate::error::Fault;
 use crate::expression::{RESERVED, Values};
 use crate::names::hint;
@@ -33,6 +33,7 @@ pub fn check(scene: &Scene, values: &Values) -> Checked {
     for (name, probe) in &scene.probes {
         check_probe::check(scene, name, probe, values)?;
     }
+    check_peer::check(scene)?;
     check_study::check(scene, values)
 }
 

@@ -7,6 +7,7 @@ pub mod body;
 pub mod check;
 mod check_connection;
 mod check_dynamics;
+mod check_peer;
 mod check_probe;
 mod check_study;
 mod check_switch;
@@ -18,6 +19,7 @@ pub mod material;
 mod none;
 pub mod number;
 pub mod parameter;
+pub mod peer;
 pub mod probe;
 pub mod quantity;
 pub mod study;
@@ -110,6 +112,9 @@ pub struct Scene {
     /// The model that quantities are compared with.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub reference: Option<study::ReferenceModel>,
+    /// What other codes made of it.
+    #[serde(default)]
+    pub peers: BTreeMap<String, peer::Peer>,
     /// Refinement studies.
     #[serde(default)]
     pub convergence: BTreeMap<String, study::Convergence>,
