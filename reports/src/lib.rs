@@ -4,6 +4,7 @@
 //! of every view: [`results::Results::write`] (`results.json`), [`terminal::table`], [`csv`],
 //! [`markdown`] and [`html`].
 
+pub mod activity;
 pub mod claims;
 pub mod compare;
 pub mod csv;

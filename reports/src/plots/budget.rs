@@ -1,7 +1,7 @@
 //! The signed parts of an error, as a waterfall.
 
 use super::chart::{Axis, Chart, Layer, WIDTH};
-use super::{Figure, Ink, LegendEntry};
+use super::{Figure, Ink, LegendEntry, csv_line};
 use crate::format::signed_percent;
 use plotters::style::text_anchor::HPos;
 use seam_cases::result::Budget;
@@ -56,7 +56,17 @@ pub fn waterfall(budget: &Budget) -> Option<Figure> {
         LegendEntry::area(Ink::Fall, "lowers it"),
         LegendEntry::area(Ink::Total, "total"),
     ];
-    Some(Figure { title: budget.title.clone(), svg: chart.svg(), legend, note: cancelling(budget) })
+    Some(chart.figure_of(legend, cancelling(budget), csv(budget)))
+}
+
+/// The parts and their total, as fractions.
+fn csv(budget: &Budget) -> String {
+    let mut text = csv_line(&["part", &budget.quantity, "scatter", "difference of"]);
+    for p in &budget.parts {
+        let scatter = p.scatter.map_or(String::new(), |s| format!("{s:?}"));
+        text += &csv_line(&[&p.name, &format!("{:?}", p.value), &scatter, &p.how]);
+    }
+    text + &csv_line(&["total", &format!("{:?}", budget.total), "", ""])
 }
 
 fn bar(row: f64, from: f64, to: f64, ink: Ink, room: f64) -> [Layer; 2] {

@@ -62,13 +62,9 @@ pub fn work_precision(diagram: &CostDiagram, cost: Cost) -> Option<Figure> {
         Cost::Seconds => format!("{}, in seconds", diagram.title),
     };
     let description = format!("{} over {}", diagram.error_label, cost.label());
-    let chart = Chart { title: title.clone(), description, x, y, layers, height: HEIGHT, left: LEFT };
-    Some(Figure {
-        title,
-        svg: chart.svg(),
-        legend,
-        note: format!("{} Error: {}.", cheapest(diagram, cost), diagram.error_label),
-    })
+    let note = format!("{} Error: {}.", cheapest(diagram, cost), diagram.error_label);
+    let chart = Chart { title, description, x, y, layers, height: HEIGHT, left: LEFT };
+    Some(chart.figure(legend, note))
 }
 
 /// The runs of a setting, as pieces without a failed run between them.

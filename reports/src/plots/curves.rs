@@ -44,7 +44,7 @@ pub fn curves(plot: &Plot) -> Option<Figure> {
     let names: Vec<&str> = plot.series.iter().map(|s| s.name.as_str()).collect();
     let description = format!("{} over {}: {}", plot.y_label, plot.x_label, names.join(", "));
     let chart = Chart { title: plot.title.clone(), description, x, y, layers, height: HEIGHT, left: LEFT };
-    Some(Figure { title: plot.title.clone(), svg: chart.svg(), legend, note: String::new() })
+    Some(chart.figure(legend, String::new()))
 }
 
 /// What is left of each model after the reference is taken away, in percent of the reference's largest value.
@@ -72,8 +72,8 @@ pub fn residuals(plot: &Plot) -> Option<Figure> {
     }
     let title = format!("{}: what is left", plot.title);
     let description = format!("model minus reference over {}", plot.x_label);
-    let chart = Chart { title: title.clone(), description, x, y, layers, height: HEIGHT, left: LEFT };
-    Some(Figure { title, svg: chart.svg(), legend, note: String::new() })
+    let chart = Chart { title, description, x, y, layers, height: HEIGHT, left: LEFT };
+    Some(chart.figure(legend, String::new()))
 }
 
 fn points(series: &Series) -> Vec<[f64; 2]> {

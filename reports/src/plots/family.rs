@@ -43,8 +43,8 @@ pub fn scatter(family: &Family, claim: &ClaimResult, own: Option<&Family>) -> Op
     let meaning = family.readings.get(reading).map_or(reading.as_str(), String::as_str);
     let description = format!("{} of {} members; {meaning}", mine.len(), family.members.len());
     let note = gaps(family, meaning);
-    let chart = Chart { title: title.clone(), description, x, y, layers, height: HEIGHT, left: LEFT };
-    Some(Figure { title, svg: chart.svg(), legend, note })
+    let chart = Chart { title, description, x, y, layers, height: HEIGHT, left: LEFT };
+    Some(chart.figure(legend, note))
 }
 
 fn points<'a>(members: impl Iterator<Item = &'a Member>, reading: &str) -> Vec<[f64; 2]> {

@@ -1,6 +1,6 @@
 //! Bodies drawn from the model: elements, bonds, particles, supports and loads.
 
-use super::{Figure, LegendEntry, open_svg};
+use super::{Figure, LegendEntry, csv_line, open_svg};
 use crate::format::significant;
 use seam_cases::result::Picture;
 
@@ -62,7 +62,26 @@ pub fn picture(p: &Picture) -> Option<Figure> {
     let loads = thinned(&p.loads).map(|[at, direction]| arrow(&view, [displaced(p, *at), *direction]));
     svg.push_str(&path("shape-load", &loads.collect::<String>()));
     svg.push_str("</svg>");
-    Some(Figure { title: p.title.clone(), svg, legend: legend(p), note: format!("{description}.") })
+    let note = format!("{description}.");
+    Some(Figure { title: p.title.clone(), svg, legend: legend(p), note, csv: csv(p) })
+}
+
+/// Corners of the elements and centres of the particles, where they are and where they are drawn, in metres.
+fn csv(p: &Picture) -> String {
+    let mut text = csv_line(&["shape", "index", "x (m)", "y (m)", "drawn x (m)", "drawn y (m)"]);
+    let mut add = |shape: &str, index: usize, at: &[f64; 2], drawn: &[f64; 2]| {
+        let numbers = [at[0], at[1], drawn[0], drawn[1]].map(|v| format!("{v:?}"));
+        let [x, y, dx, dy] = &numbers;
+        text += &csv_line(&[shape, &index.to_string(), x, y, dx, dy]);
+    };
+    for (index, corners) in p.elements.iter().enumerate() {
+        let drawn = p.deformed_elements.get(index).unwrap_or(corners);
+        corners.iter().zip(drawn).for_each(|(at, drawn)| add("element", index, at, drawn));
+    }
+    for (index, at) in p.particles.iter().enumerate() {
+        add("particle", index, at, p.deformed_particles.get(index).unwrap_or(at));
+    }
+    text
 }
 
 fn path(class: &str, d: &str) -> String {
