@@ -103,6 +103,22 @@ def kept(row, plane):
     return (row[0], row[1], row[5]) if plane else tuple(row)
 
 
+def load_share(run):
+    """Share of the load that a code is given: a small one keeps a comparison with linear bonds free of second order."""
+    return run.get("load_share", 1.0)
+
+
+def scaled(rows, run, given=0):
+    """Answers to that share as answers to the whole load; the first columns are no answer but given."""
+    return [(*row[:given], *(value / load_share(run) for value in row[given:])) for row in rows]
+
+
+def how_scaled(run):
+    """Says so."""
+    share = load_share(run)
+    return "" if share == 1.0 else f"answers to {share:g} of the load, scaled to all of it; "
+
+
 def half_difference(ahead, behind, given=0):
     """Half the difference of the answers to a load and to its opposite, in which nothing of second order is left; the
     first columns are no answer but given."""

@@ -15,6 +15,7 @@ pub mod html;
 pub mod judge;
 pub mod markdown;
 pub mod plots;
+pub mod race;
 pub mod record;
 pub mod results;
 pub mod schema;

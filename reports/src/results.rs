@@ -3,10 +3,11 @@
 use crate::claims::ReadingResult;
 use crate::claims::decides::AxisEffect;
 use crate::claims::particles::Needed;
+use crate::race::Race;
 use crate::record::{RecordState, RecordedClaim};
 use crate::verdict::{ClaimVerdict, Verdict};
 use schemars::JsonSchema;
-use seam_cases::result::{EffectUse, ReferenceKind};
+use seam_cases::result::{Agreement, EffectUse, ReferenceKind};
 use seam_solver::work::Work;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -27,6 +28,9 @@ pub struct Results {
     pub provenance: Provenance,
     /// The cases, in the order they were given.
     pub cases: Vec<CaseJudgement>,
+    /// Several codes side by side, where that was measured or is recorded.
+    #[serde(default)]
+    pub race: Option<Race>,
 }
 
 /// What produced the results.
@@ -123,6 +127,9 @@ pub struct QuantityResult {
     pub regression: Option<f64>,
     /// The verdict; `null` where nothing is promised.
     pub verdict: Option<Verdict>,
+    /// What was compared with another code, where that is what it is.
+    #[serde(default)]
+    pub agreement: Option<Agreement>,
 }
 
 /// A curve compared with the reference of its plot.

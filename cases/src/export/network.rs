@@ -23,6 +23,10 @@ const STEP_SHARE: f64 = 0.7;
 /// A code is at rest when no unbalanced force exceeds this share of the largest load: below what is compared,
 /// above the rounding of positions.
 const RESIDUAL: f64 = 1e-7;
+/// Codes that follow the particles as they move are given this share of a scene's loads, and their answers scaled.
+const LOAD_SHARE: f64 = 1e-3;
+/// Local damping on the way to rest: slender beams take long with the little that stiff networks need.
+const DAMPING: f64 = 0.8;
 /// While bonds break, of the force on the grips: far below the lead of the bond that breaks over the next.
 const BREAKING_RESIDUAL: f64 = 1e-6;
 
@@ -52,14 +56,13 @@ pub fn of_scene(file: &SceneFile, network: &Network, model: &Model) -> Result<BT
     Ok(free(network, model, &equilibrium(file, model)?))
 }
 
-/// The network of a variant of a scene, at rest or in motion; its loads are not tiny, so that effects of second order
-/// are to be taken out.
+/// The network of a variant of a scene, at rest or in motion.
 pub fn of_peer(file: &SceneFile, network: &Network, model: &Model) -> Result<BTreeMap<String, String>> {
     let run = match &file.scene.dynamics {
-        None => equilibrium(file, model)?,
+        None => format!("{}damping = {DAMPING:?}\n", equilibrium(file, model)?),
         Some(dynamics) => history(file, dynamics, model)?,
     };
-    Ok(free(network, model, &format!("{run}both_ways = true\n")))
+    Ok(free(network, model, &format!("{run}load_share = {LOAD_SHARE:?}\n")))
 }
 
 /// A notched network with the strengths of its bonds.

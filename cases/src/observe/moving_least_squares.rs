@@ -38,9 +38,7 @@ fn terms(space: Space, d: Vec3) -> Vec<f64> {
 /// Value at `x` of the field with `values` at `positions`; `None` if the particles do not determine it.
 pub fn value(space: Space, positions: &[Vec3], values: &[Vec3], spacing: f64, x: Vec3) -> Option<Vec3> {
     let reach = (0..6).map(|k| RADIUS * spacing * WIDER.powi(k));
-    reach
-        .filter_map(|radius| fit(space, positions, values, &within(positions, radius, x), radius, x))
-        .next()
+    reach.filter_map(|radius| fit(space, positions, values, &within(positions, radius, x), radius, x)).next()
 }
 
 /// The particles whose values count at `x`, ascending; empty if they do not determine a value.

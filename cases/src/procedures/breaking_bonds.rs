@@ -131,12 +131,17 @@ pub(super) fn run(setting: &Setting, result: &mut CaseResult) -> Result<()> {
     }
     let apart = path.apart(&theirs) / their_peak;
     let label = "Force when a bond breaks, largest difference from YADE over the largest force";
-    result.quantities.push(of_yade("force at every break", rounding("force", label, apart, tolerance, why, &source)));
+    result
+        .quantities
+        .push(of_yade("force at every break", rounding("force", label, apart, tolerance, why, &source)));
     result.quantities.push(within(
         ["closest-tie", "Lead of the bond that breaks over the next, smallest over all events", "1"],
         closest,
         [setting.number("least_lead")?, 1.0],
-        ["A check of the check: above what the two codes differ by, so that no tie decides the order.", "this run"],
+        [
+            "A check of the check: above what the two codes differ by, so that no tie decides the order.",
+            "this run",
+        ],
     ));
     Ok(())
 }
@@ -171,7 +176,8 @@ impl Steps {
         for event in events {
             held = held.max(event.displacement);
             let share = held / event.displacement;
-            for (list, value) in steps.iter_mut().zip([held, share * event.force, share * event.force_after]) {
+            for (list, value) in steps.iter_mut().zip([held, share * event.force, share * event.force_after])
+            {
                 list.push(value);
             }
             if let Site::Bond(bond) = event.site {
@@ -211,8 +217,7 @@ fn crack(setting: &Setting, specimen: &Specimen, result: &mut CaseResult) -> Res
         return Ok((Steps::new(Vec::new(), Vec::new(), Vec::new(), &[]), f64::NAN));
     };
     let tensile = Strength::Stress { strength_pa: specimen.strength_pa };
-    let recipe =
-        FailureRecipe { law: FailureLaw::BondStress(BondStress::Normal { tensile }), weibull: None };
+    let recipe = FailureRecipe { law: FailureLaw::BondStress(BondStress::Normal { tensile }), weibull: None };
     let place = Place { network, body: name, breakable: Some(&specimen.breakable), area_m2: None };
     let failure = Failure::new(&recipe, &place).map_err(refuse)?;
     let mut cracking =

@@ -100,7 +100,10 @@ fn check_quantity(scene: &Scene, name: &str, quantity: &Quantity, values: &Value
     variants(scene, &quantity.variants, &format!("{key}.variants"))?;
     check_norm(scene, quantity, &key)?;
     let curve = quantity.norm.is_some();
-    let given = quantity.reference.as_ref().is_some_and(|r| r.value.is_some() || r.variants.is_some() || r.peer.is_some());
+    let given = quantity
+        .reference
+        .as_ref()
+        .is_some_and(|r| r.value.is_some() || r.variants.is_some() || r.peer.is_some());
     check_peer::check_reference(scene, quantity, &format!("{key}.reference"))?;
     check_own_run(scene, quantity, &format!("{key}.reference"))?;
     if scene.reference.is_none() && !given && (curve || quantity.reference.is_some()) {

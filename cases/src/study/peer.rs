@@ -135,7 +135,9 @@ fn at_rest(file: &SceneFile, built: &Built, table: &Table) -> Result<Reference> 
     for (name, probe) in file.scene.probes.iter().filter(|(_, probe)| answers(probe)) {
         match look(file, built, &u, (name, probe), |observer| observer.read())? {
             Reading::Scalar(value) => reference.scalar(name, value),
-            Reading::Curve(curve) => drop(reference.curves.insert(name.clone(), (curve, 0.0))),
+            Reading::Curve(curve) => {
+                reference.curves.insert(name.clone(), (curve, 0.0));
+            }
         }
     }
     Ok(reference)
@@ -189,7 +191,8 @@ fn along_a_line(file: &SceneFile, data: &Dataset) -> std::result::Result<Referen
     let mut reference = Reference::default();
     for (name, probe) in &file.scene.probes {
         let stations = |line: &crate::scene::probe::Line| -> Option<Vec<f64>> {
-            let end = |numbers: &[crate::scene::number::Number]| numbers.first()?.value(&file.values, "").ok();
+            let end =
+                |numbers: &[crate::scene::number::Number]| numbers.first()?.value(&file.values, "").ok();
             let (from, to) = (end(&line.from)?, end(&line.to)?);
             let n = line.intervals;
             Some((0..=n).map(|k| from + (to - from) * (k as f64 / n as f64)).collect())

@@ -79,7 +79,7 @@ fn one(
                 value.ok_or_else(|| study.error(format!("quantity '{name}' has no value")))?;
         }
     }
-    if quantity.norm.is_none() || !is_own_run(quantity) {
+    if quantity.norm.is_none() || !is_of_a_run(quantity) {
         compare(root, study, name, quantity, &mut observation)?;
     }
     observation.agreement = agreement(root, quantity);
@@ -103,8 +103,9 @@ fn agreement(root: &Study, quantity: &Quantity) -> Option<Agreement> {
     })
 }
 
-fn is_own_run(quantity: &Quantity) -> bool {
-    quantity.reference.as_ref().is_some_and(|r| r.variants.is_some())
+/// Whether it is compared with another run, of Seam or of another code: with a norm the distance is the value.
+fn is_of_a_run(quantity: &Quantity) -> bool {
+    quantity.reference.as_ref().is_some_and(|r| r.variants.is_some() || r.peer.is_some())
 }
 
 /// What another code computed, the run that the quantity names, or the scene's `[reference]` model.

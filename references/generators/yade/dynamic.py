@@ -10,7 +10,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(sys.argv[0]).resolve().parent))
 
 from bonded import O, add_forces, build, motion, version
-from exported import BOTH_WAYS, difference, files, half_difference, history_columns, kept
+from exported import difference, files, history_columns, how_scaled, kept, load_share, scaled
 from reference import machine, write
 
 
@@ -22,27 +22,19 @@ def look_and_load():
             rows.append((O.time, *kept(motion(watched), net.plane)))
         else:
             rows.extend((O.time, p, *kept(motion(p), net.plane)) for p in watched)
-    add_forces(net, sign * min(O.time / net.run["rise_s"], 1.0))
+    add_forces(net, load_share(net.run) * min(O.time / net.run["rise_s"], 1.0))
 
 
-def run(folder, direction):
-    global net, rows, sign
-    sign, net, rows = direction, build(folder, 0.0, "look_and_load()"), []
+def run(folder):
+    global net, rows
+    net, rows = build(folder, 0.0, "look_and_load()"), []
     O.run(net.run["steps"] + 1, True)
-    return rows
-
-
-def answer(folder):
-    """With effects of second order taken out where the load is not tiny."""
-    ahead = run(folder, 1.0)
-    if not net.run.get("both_ways"):
-        return ahead
-    return half_difference(ahead, run(folder, -1.0), given=1 if isinstance(net.run["watched"], int) else 2)
+    return scaled(rows, net.run, given=1 if isinstance(net.run["watched"], int) else 2)
 
 
 folder, case, name = sys.argv[1:4]
-first = answer(folder)
-again = answer(folder)
+first = run(folder)
+again = run(folder)
 several = not isinstance(net.run["watched"], int)
 columns = history_columns(net.plane)
 if several:
@@ -57,8 +49,7 @@ write(
     repeat=(difference(first, again), "the same input run twice in one process with one thread (-j1)"),
     kind="yade",
     about=f"Motion of {what} of {len(net.particles)} particles and {len(net.bonds)} bonds, "
-    f"undamped, {net.run['steps']} steps of {net.run['step_s']} s"
-    + (f"; {BOTH_WAYS}." if net.run.get("both_ways") else "."),
+    f"{how_scaled(net.run)}undamped, {net.run['steps']} steps of {net.run['step_s']} s.",
     source="Run for Seam, from a network that Seam exported; YADE's own contact law and integrator",
     code="YADE, the Debian package yade; Law2_ScGeom6D_CohFrictPhys_CohesionMoment",
     version=version(),

@@ -12,6 +12,7 @@ pub mod curves;
 pub mod family;
 mod ink;
 pub mod picture;
+pub mod race;
 mod ticks;
 
 pub use ink::Ink;

@@ -1,8 +1,10 @@
 //! The error table for a terminal of 80 columns: claims, numbers, failures, one closing line.
 
 mod failures;
+mod race;
 mod style;
 
+pub use race::race;
 pub use style::Style;
 
 use crate::format::{self, percent, share, signed_percent};

@@ -1,11 +1,13 @@
 //! What the templates show: everything already in words. One file per section that needs words of its own.
 
+mod agreement;
 mod answer;
 mod budget;
 mod case;
 mod claim;
 mod failures;
 mod numbers;
+mod race;
 
 use crate::activity::Activity;
 use crate::exit::Exit;
@@ -31,6 +33,8 @@ pub(super) struct Page {
     bias: Vec<Figure>,
     budgets: Vec<budget::BudgetView>,
     costs: Vec<Figure>,
+    agreements: agreement::Agreements,
+    race: Option<race::RaceView>,
     cases: Vec<case::Case>,
     provenance: Provenance,
     timings: Vec<(String, String)>,
@@ -44,6 +48,8 @@ impl Page {
         let claims = self.claims.iter().filter_map(claim::Claim::figure);
         let budgets = self.budgets.iter().map(|b| &b.figure);
         let totals = self.bias.iter().chain(budgets).chain(&self.costs).chain(&self.second_costs);
+        let race = self.race.iter().flat_map(|race| &race.figures);
+        let totals = totals.chain(race);
         let cases = self.cases.iter().flat_map(|c| {
             let figures = c.pictures.iter().chain(&c.figures);
             figures.map(|figure| (format!("{}-{}", c.judged.id, slug(&figure.title)), figure))
@@ -83,6 +89,8 @@ pub(super) fn page(results: &Results, cases: &[CaseResult]) -> Page {
         bias: plots::bias::scatter(results).into_iter().collect(),
         budgets: budgets.collect(),
         costs: work_costs,
+        agreements: agreement::view(results),
+        race: results.race.as_ref().map(race::view),
         cases: results.cases.iter().map(|c| case::view(c, measured(&c.id))).collect(),
         provenance: results.provenance.clone(),
         timings: results.cases.iter().map(|c| (c.id.clone(), seconds(c.seconds))).collect(),

@@ -125,7 +125,15 @@ fn run(
             }
         }
         for (lane, own) in lanes.iter().zip(&finishes) {
-            rows.push(Row::new(course.what, course.size, course.amount, threads, lane.name, own, &finishes[0]));
+            rows.push(Row::new(
+                course.what,
+                course.size,
+                course.amount,
+                threads,
+                lane.name,
+                own,
+                &finishes[0],
+            ));
         }
     }
     Ok(rows)

@@ -15,14 +15,22 @@ const COLUMNS: [(&str, &str, &str); 11] = [
     ("what", "name", "network of particles, or mesh of hexahedra"),
     ("size", "1", "particles of the network, nodes of the mesh"),
     ("threads", "1", "threads, or ranks"),
-    ("code", "name", "who ran; seam-finite is Seam with bonds for finite rotations, which the others carry too"),
+    (
+        "code",
+        "name",
+        "who ran; seam-finite is Seam with bonds for finite rotations, which the others carry too",
+    ),
     ("seconds", "s", "wall time, median of the rounds"),
     ("rate", "Hz", "bond updates per second of the network, unknowns per second of the mesh; median"),
     ("rate_min", "Hz", "slowest round"),
     ("rate_max", "Hz", "fastest round"),
     ("times_seam", "1", "wall time over Seam's, median of the rounds"),
     ("memory_mb", "1", "largest memory, in MiB"),
-    ("difference", "1", "largest difference of a displacement at the end from Seam's, relative to the largest"),
+    (
+        "difference",
+        "1",
+        "largest difference of a displacement at the end from Seam's, relative to the largest",
+    ),
 ];
 
 /// Writes both files and reads them back.
