@@ -189,3 +189,51 @@ proptest::proptest! {
         let _ = read(&text, &[]);
     }
 }
+
+/// The beam of [`BEAM`] with a notch.
+fn notched() -> String {
+    BEAM.replace(
+        "box = { min = [0, 0], max = [1, \"height_m\"] }\nfe = { divisions = [\"10*rows\", \"rows\"] }",
+        "notched_beam = { length_m = 1, depth_m = \"height_m\", notch_depth_m = 0.04, notch_angle_deg = 60, reach_m = 0.1 }\n\
+         fe = { refinement = { finest_m = \"height_m/50\", growth = 1.5, coarsest_m = \"height_m/4\", through_x_m = [-0.4, 0.4] } }",
+    )
+}
+
+#[test]
+fn a_notched_beam_is_built_in_the_plane_and_in_space() {
+    use seam_cases::model::build;
+    let plane = build(&read(&notched(), &[]).unwrap()).unwrap();
+    let solid =
+        build(&read(&notched(), &["hypothesis=solid", "thickness_m=0.05"]).unwrap_or_else(|e| panic!("{e}")))
+            .unwrap();
+    let [plane, solid] = [plane, solid].map(|built| built.model.parts[0].positions().to_vec());
+    assert_eq!(2 * plane.len(), solid.len());
+    assert!(solid.iter().any(|x| x.z == 0.05));
+    assert!(plane.iter().any(|x| x.x == 0.4 && x.y == 0.0));
+}
+
+#[test]
+fn impossible_notches_are_named_by_their_key() {
+    for (from, to, expected) in [
+        ("notch_depth_m = 0.04", "notch_depth_m = 0.1", "notched_beam.notch_depth_m"),
+        ("notch_depth_m = 0.04", "notch_depth_m = 0", "does not end inside"),
+        ("notch_angle_deg = 60", "notch_angle_deg = 180", "notched_beam.notch_angle_deg"),
+        ("reach_m = 0.1", "reach_m = 0.02", "half the mouth is 0.0230"),
+        ("reach_m = 0.1", "reach_m = 0.6", "half the beam 0.5"),
+        ("growth = 1.5", "growth = 0.5", "fe.refinement.growth"),
+        ("coarsest_m = \"height_m/4\"", "coarsest_m = 1e-6", "fe.refinement.coarsest_m"),
+        ("[-0.4, 0.4]", "[-0.4, 0.6]", "fe.refinement.through_x_m[1]"),
+        ("refinement = {", "divisions = [1, 1], refinement = {", "no divisions"),
+        ("method = \"fe\"", "method = \"de\"", "the section `de` is missing"),
+    ] {
+        let text = notched();
+        assert!(text.contains(from), "{from}");
+        let message = read(&text.replacen(from, to, 1), &[]).unwrap_err();
+        assert!(message.contains(expected), "expected '{expected}' in:\n{message}");
+    }
+    let message = error(
+        "divisions = [\"10*rows\", \"rows\"]",
+        "divisions = [4, 4], refinement = { finest_m = 0.1, coarsest_m = 1 }",
+    );
+    assert!(message.contains("only a notched beam has a refinement"), "{message}");
+}

@@ -12,7 +12,7 @@ export const structure = (wanted) => {
     const count = document.querySelectorAll(selector).length;
     if (count !== 1) found.push(`${count} of ${selector}`);
   };
-  ["h1", "main", "nav[aria-label]", "html[lang]", "title"].forEach(one);
+  ["h1", "main", "nav[aria-label]", "html[lang]", "head > title"].forEach(one);
   for (const id of wanted) {
     const part = document.getElementById(id);
     if (!part) found.push(`no section #${id}`);
@@ -51,6 +51,7 @@ export const outside = () => {
     found.push(`the page scrolls sideways by ${page.scrollWidth - page.clientWidth} px: ${wide.slice(0, 3).map((e) => `${e.tagName}.${e.className} '${e.textContent.trim().slice(0, 40)}'`).join("; ")}`);
   }
   for (const text of document.querySelectorAll("svg text")) {
+    if (!text.textContent.trim()) found.push(`an empty text in ${text.closest("figure").querySelector("figcaption").textContent}`);
     const [inner, outer] = [text.getBoundingClientRect(), text.ownerSVGElement.getBoundingClientRect()];
     const out = Math.max(outer.left - inner.left, inner.right - outer.right, outer.top - inner.top, inner.bottom - outer.bottom);
     if (outer.width && out > 3) found.push(`'${text.textContent}' leaves its figure by ${out.toFixed(0)} px: ${text.closest("figure").querySelector("figcaption").textContent}`);

@@ -2,12 +2,17 @@
 
 use super::{Context, Refusal};
 use crate::error::Fault;
-use crate::scene::body::Body;
+use crate::scene::body::{Body, NotchedBeam};
+use crate::scene::check_notched_beam;
 use crate::scene::fe::{self, Fe};
+use crate::scene::number::Number;
 use seam_solver::fem::continuum::Continuum;
 use seam_solver::fem::formulation::Formulation;
 use seam_solver::fem::mesh::Mesh;
-use seam_solver::fem::structured::{elliptic_sector, graded, grid, jiggle, quadrilateral};
+use seam_solver::fem::notched_beam::Through;
+use seam_solver::fem::refined::Refinement;
+use seam_solver::fem::structured::{elliptic_sector, even, graded, grid, jiggle, quadrilateral};
+use seam_solver::space::Space;
 use std::f64::consts::FRAC_PI_2;
 
 /// The body, meshed.
@@ -37,6 +42,9 @@ fn mesh(context: &Context, name: &str, body: &Body, fe: &Fe) -> Result<Mesh, Ref
     if let Some(path) = &body.gmsh {
         return Ok(seam_solver::fem::gmsh::read_gmsh(&context.file.folder.file(path)?)?);
     }
+    if let Some(beam) = &body.notched_beam {
+        return notched(context, &key, beam, fe);
+    }
     let lines = |axis: usize, low: f64, high: f64| -> Result<Vec<f64>, Refusal> {
         let n = fe.divisions[axis].count(context.values, 1, &format!("{key}.fe.divisions[{axis}]"))?;
         let ratio = match fe.grading.get(axis) {
@@ -65,6 +73,37 @@ fn mesh(context: &Context, name: &str, body: &Body, fe: &Fe) -> Result<Mesh, Ref
     let max = context.vector(&shape.max, &format!("{key}.box.max"))?;
     let axes = (0..context.space.dim()).map(|i| lines(i, min[i], max[i])).collect::<Result<Vec<_>, _>>()?;
     Ok(grid(&axes)?)
+}
+
+fn notched(context: &Context, key: &str, beam: &NotchedBeam, fe: &Fe) -> Result<Mesh, Refusal> {
+    let shape = check_notched_beam::shape(beam, context.values, key)?;
+    // `check` has made sure of it.
+    let Some(refinement) = &fe.refinement else {
+        return Err(Fault::new(format!("{key}.fe"), "the refinement is missing", "add it").into());
+    };
+    let key = |name: &str| format!("{key}.fe.refinement.{name}");
+    let number = |number: &Number, name: &str| number.value(context.values, &key(name));
+    let by = Refinement {
+        finest: number(&refinement.finest_m, "finest_m")?,
+        growth: number(&refinement.growth, "growth")?,
+        coarsest: number(&refinement.coarsest_m, "coarsest_m")?,
+    };
+    let lines = |numbers: &[Number], name: &str| {
+        numbers.iter().map(|n| number(n, name)).collect::<Result<Vec<f64>, Fault>>()
+    };
+    let z = match context.space {
+        Space::Plane => Vec::new(),
+        Space::Solid => {
+            let layers = refinement.layers.count(context.values, 1, &key("layers"))?;
+            even(0.0, context.scene.thickness_m.value(context.values, "thickness_m")?, layers)?
+        }
+    };
+    let through = Through {
+        x: lines(&refinement.through_x_m, "through_x_m")?,
+        y: lines(&refinement.through_y_m, "through_y_m")?,
+        z,
+    };
+    Ok(shape.mesh(by, &through)?.mesh)
 }
 
 impl From<fe::Formulation> for Formulation {

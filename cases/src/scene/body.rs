@@ -31,6 +31,10 @@ pub struct Body {
     /// x axis), end (on the y axis).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sector: Option<Sector>,
+    /// Shape: a beam notched from below at mid-span. Boundaries: left, right, bottom, top, notch (both
+    /// flanks), in the solid back and front.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub notched_beam: Option<NotchedBeam>,
     /// Shape and mesh: a Gmsh file (4.1) next to the scene; boundaries are its physical groups.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub gmsh: Option<String>,
@@ -52,6 +56,7 @@ impl Body {
             (self.cuboid.is_some(), "box"),
             (self.quadrilateral.is_some(), "quadrilateral"),
             (self.sector.is_some(), "sector"),
+            (self.notched_beam.is_some(), "notched_beam"),
             (self.gmsh.is_some(), "gmsh"),
             (self.network.is_some(), "network"),
         ]
@@ -65,6 +70,7 @@ impl Body {
         match self.shapes().first() {
             Some(&"box") => Some(&["left", "right", "bottom", "top", "back", "front"]),
             Some(&"quadrilateral") => Some(&["bottom", "right", "top", "left"]),
+            Some(&"notched_beam") => Some(&["left", "right", "bottom", "top", "notch", "back", "front"]),
             Some(&"sector") => Some(&["inner", "outer", "start", "end"]),
             _ => None,
         }
@@ -107,6 +113,27 @@ pub struct Sector {
     pub inner: Vec<Number>,
     /// Half axes along x and y of the outer ellipse, in m.
     pub outer: Vec<Number>,
+}
+
+/// The beam `|x| ≤ length/2`, `0 ≤ y ≤ depth`, with a notch from below at x = 0; in the solid from z = 0.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct NotchedBeam {
+    /// Along x, in m.
+    pub length_m: Number,
+    /// Along y, in m.
+    pub depth_m: Number,
+    /// Of the notch, in m.
+    pub notch_depth_m: Number,
+    /// Between the flanks, in degrees; 0 is a crack.
+    #[serde(default = "closed")]
+    pub notch_angle_deg: Number,
+    /// Distance from mid-span beyond which the grid stays rectangular, in m: more than half the mouth, `a tan(ω/2)`.
+    pub reach_m: Number,
+}
+
+fn closed() -> Number {
+    Number::Literal(0.0)
 }
 
 /// A network from another code.

@@ -3,7 +3,10 @@
 use super::body::{Body, Method};
 use super::de::{Arrangement, Calibrate, De};
 use super::number::Number;
-use super::{Scene, check_connection, check_dynamics, check_peer, check_probe, check_study, check_switch};
+use super::{
+    Scene, check_connection, check_dynamics, check_notched_beam, check_peer, check_probe, check_study,
+    check_switch,
+};
 use crate::error::Fault;
 use crate::expression::{RESERVED, Values};
 use crate::names::hint;
@@ -130,7 +133,11 @@ fn check_body(scene: &Scene, name: &str, body: &Body, values: &Values) -> Checke
     let shapes = body.shapes();
     if shapes.len() != 1 {
         let message = format!("a body has one shape, found {}: {}", shapes.len(), shapes.join(", "));
-        return Err(Fault::new(key, message, "give one of: box, quadrilateral, sector, gmsh, network"));
+        return Err(Fault::new(
+            key,
+            message,
+            "give one of: box, quadrilateral, sector, notched_beam, gmsh, network",
+        ));
     }
     let space = scene.hypothesis.space();
     if space == Space::Solid && ["quadrilateral", "sector"].contains(&shapes[0]) {
@@ -139,6 +146,9 @@ fn check_body(scene: &Scene, name: &str, body: &Body, values: &Values) -> Checke
     }
     if let Some(cuboid) = &body.cuboid {
         check_box(cuboid, space, values, &format!("{key}.box"))?;
+    }
+    if let Some(beam) = &body.notched_beam {
+        check_notched_beam::check(body, beam, values, &key)?;
     }
     match body.method {
         Method::Fe => check_fe(body, shapes[0], space, values, &key),
@@ -174,7 +184,11 @@ fn check_fe(body: &Body, shape: &str, space: Space, values: &Values, key: &str) 
             "set method = \"de\"",
         ));
     }
-    if shape == "gmsh" {
+    if fe.refinement.is_some() && shape != "notched_beam" {
+        let message = "only a notched beam has a refinement";
+        return Err(Fault::new(format!("{key}.fe.refinement"), message, "use divisions and grading"));
+    }
+    if ["gmsh", "notched_beam"].contains(&shape) {
         return Ok(());
     }
     vector(&fe.divisions, space, &format!("{key}.fe.divisions"))?;

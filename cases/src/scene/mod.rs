@@ -7,6 +7,7 @@ pub mod body;
 pub mod check;
 mod check_connection;
 mod check_dynamics;
+pub mod check_notched_beam;
 mod check_peer;
 mod check_probe;
 mod check_study;
@@ -14,6 +15,7 @@ mod check_switch;
 pub mod connection;
 pub mod de;
 pub mod dynamics;
+pub mod effects;
 pub mod fe;
 pub mod material;
 mod none;
@@ -61,13 +63,13 @@ pub struct Scene {
     /// Largest model that is run.
     #[serde(default)]
     pub limits: Limits,
-    /// Effects to simulate, or `["auto"]`.
+    /// Effects to simulate: their names, or `["auto"]` for those that the tables ask for.
     #[serde(default = "auto")]
     pub effects: Vec<String>,
     /// Plane or solid.
     #[serde(default = "plane_stress")]
     pub hypothesis: Hypothesis,
-    /// Thickness in the plane, in m.
+    /// Thickness in the plane, in m; in the solid that of notched beams.
     #[serde(default = "unit_thickness")]
     pub thickness_m: number::Number,
     /// Named numbers.
@@ -100,6 +102,9 @@ pub struct Scene {
     /// Switches that are not enabled: probes may name them and read nothing.
     #[serde(skip)]
     pub switches_off: BTreeSet<String>,
+    /// What the list of effects leaves out.
+    #[serde(skip)]
+    pub left_out: effects::LeftOut,
     /// What is read off.
     #[serde(default)]
     pub probes: BTreeMap<String, probe::Probe>,
@@ -130,6 +135,12 @@ pub struct Scene {
     /// Work–precision diagrams.
     #[serde(default)]
     pub costs: BTreeMap<String, study::CostDeclaration>,
+    /// How cost grows with size.
+    #[serde(default)]
+    pub growth: BTreeMap<String, study::GrowthDeclaration>,
+    /// Effects that are switched on and off.
+    #[serde(default)]
+    pub ablations: BTreeMap<String, study::AblationDeclaration>,
 }
 
 fn yes() -> bool {

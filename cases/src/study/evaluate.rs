@@ -6,6 +6,7 @@ use crate::file::SceneFile;
 use crate::model::{self, Built, time};
 use crate::observe::curve::Curve;
 use crate::observe::field::Field;
+use crate::observe::guard::Guard;
 use crate::observe::history::Recorder;
 use crate::observe::probes::{Moment, Observer, Reading};
 use crate::observe::supports::Supports;
@@ -16,6 +17,7 @@ use crate::scene::quantity::{Norm, Quantity, Zone};
 use seam_solver::model::Numbering;
 use seam_solver::simulation::{Energies, Outcome};
 use seam_solver::solve::statics::{self, Solution};
+use seam_solver::stage::{Stage, timed};
 use seam_solver::work::Work;
 use std::collections::BTreeMap;
 use std::sync::Mutex;
@@ -31,6 +33,8 @@ pub struct Solved {
     pub readings: Readings,
     /// How it moved; `None` in statics.
     pub course: Option<Course>,
+    /// What was watched for effects that were left out.
+    pub guard: Guard,
     /// Wall time, in s.
     pub seconds: f64,
 }
@@ -140,12 +144,19 @@ fn stand(file: &SceneFile, built: Built) -> Result<Solved> {
     supports.follow(&built.model, 0);
     let by_probe = read(file, &built, &solution, &supports, |_| true)?;
     let readings = Readings { by_probe, first_switch: None };
-    Ok(Solved { built, solution, readings, course: None, seconds: 0.0 })
+    let mut guard = Guard::new(file)?;
+    guard.watch(&built.model, &solution.u, [0.0, 1.0]).map_err(|e| file.solver(e))?;
+    Ok(Solved { built, solution, readings, course: None, guard, seconds: 0.0 })
 }
 
 fn go(file: &SceneFile, dynamics: &Dynamics, mut built: Built, start: Instant) -> Result<Solved> {
     let mut recorder = Recorder::new(file, Supports::new(&built));
-    let outcome = time::run(file, dynamics, &mut built, &mut |snapshot| recorder.watch(snapshot))?;
+    let mut guard = Guard::new(file)?;
+    let outcome = time::run(file, dynamics, &mut built, &mut |snapshot| {
+        let state = snapshot.state;
+        guard.watch(snapshot.model, &state.u, [state.time, snapshot.factor]).map_err(|e| file.solver(e))?;
+        recorder.watch(snapshot)
+    })?;
     let Outcome { model, state, energies, switches, notes, work, switch_seconds, .. } = outcome;
     let share_of_time = switch_seconds / start.elapsed().as_secs_f64();
     let switches = Switches { reports: switches, extent: extent(&model), share_of_time };
@@ -175,11 +186,21 @@ fn go(file: &SceneFile, dynamics: &Dynamics, mut built: Built, start: Instant) -
     by_probe.extend(curves);
     let course = Course { energies: recorder.energies, switches };
     let readings = Readings { by_probe, first_switch: course.first_switch() };
-    Ok(Solved { built, solution, readings, course: Some(course), seconds: 0.0 })
+    Ok(Solved { built, solution, readings, course: Some(course), guard, seconds: 0.0 })
 }
 
 /// Reads those probes off a state that a state alone can answer.
 fn read(
+    file: &SceneFile,
+    built: &Built,
+    solution: &Solution,
+    supports: &Supports,
+    wanted: impl Fn(&Probe) -> bool,
+) -> Result<BTreeMap<String, Reading>> {
+    timed(Stage::Output, || read_all(file, built, solution, supports, wanted))
+}
+
+fn read_all(
     file: &SceneFile,
     built: &Built,
     solution: &Solution,

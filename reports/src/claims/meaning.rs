@@ -31,14 +31,15 @@ pub fn paragraph(c: &ClaimResult) -> String {
         sentences.extend(c.needed.map(|n| paper_like(c, n)));
     }
     if !c.complete {
-        let recorded = c.recorded_full.as_ref().map_or(String::new(), |full| {
-            format!(
-                "; the whole family, as recorded, gives {} of settings, {}",
+        sentences.push(match &c.recorded_full {
+            Some(full) => format!(
+                "This run tries a stated subset of the family; over the whole of it, as recorded, {} of the settings meet {} ({}).",
                 share(full.share),
+                percent(c.bound),
                 full.verdict
-            )
+            ),
+            None => "This run tries a stated subset of the family.".to_owned(),
         });
-        sentences.push(format!("This run tries a stated subset of the family{recorded}."));
     }
     sentences.join(" ")
 }
@@ -104,5 +105,54 @@ fn paper_like(c: &ClaimResult, needed: Needed) -> String {
                 "Set up as the paper most likely was, the model misses {bound} up to {n:.0} particles, the finest tried here."
             )
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::claims::decides::AxisValue;
+
+    fn claim(verdict: ClaimVerdict, own: bool) -> ClaimResult {
+        let value = |value: &str, share| AxisValue { value: value.into(), share, error: None, settings: 4 };
+        let skin = AxisEffect {
+            axis: "skin".into(),
+            moves: 0.5,
+            ratio: 3.0,
+            values: vec![value("weighted", 1.0), value("full", 0.5)],
+        };
+        ClaimResult {
+            verdict,
+            own,
+            bound: 0.07,
+            share: 0.75,
+            settings: 8,
+            complete: true,
+            decides: vec![skin],
+            needed: Some(Needed::About(158.0)),
+            ..ClaimResult::default()
+        }
+    }
+
+    #[test]
+    fn each_verdict_has_its_own_advice() {
+        use ClaimVerdict::{Conditional, Contradicted, Supported, Undetermined};
+        let all = [Supported, Contradicted, Conditional, Undetermined];
+        let texts: Vec<String> =
+            all.iter().flat_map(|v| [false, true].map(|own| paragraph(&claim(*v, own)))).collect();
+        let mut different = texts.clone();
+        different.sort();
+        different.dedup();
+        // Own and paper's claims that are contradicted or undetermined differ in the paper-like sentence only.
+        assert_eq!(different.len(), texts.len(), "{texts:#?}");
+        assert!(texts.iter().all(|t| t.contains("7 %")), "{texts:#?}");
+    }
+
+    #[test]
+    fn a_conditional_claim_says_on_what_it_depends() {
+        let text = paragraph(&claim(ClaimVerdict::Conditional, false));
+        assert!(text.contains("with weighted skin it holds in 100 %"), "{text}");
+        assert!(text.contains("with full skin in 50 %"), "{text}");
+        assert!(text.contains("from about 158 particles on"), "{text}");
     }
 }

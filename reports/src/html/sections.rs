@@ -36,6 +36,8 @@ sections! {
     "cost": "What accuracy costs",
     "agreement": "Agreement with other codes",
     "race": "What a user would pick instead",
+    "stability": "Stability margins",
+    "effects": "Effects on and off",
     "cases": "Cases",
     "provenance": "Provenance",
     "machine": "Machine and timings",

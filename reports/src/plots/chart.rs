@@ -137,8 +137,8 @@ pub(super) struct Chart {
 pub(super) const WIDTH: u32 = 1200;
 /// Height of most charts.
 pub(super) const HEIGHT: u32 = 700;
-/// Room for numbers at the left.
-pub(super) const LEFT: u32 = 150;
+/// Room for numbers and a label at the left, at the larger letters of narrow windows.
+pub(super) const LEFT: u32 = 200;
 const FONT: u32 = 31;
 
 impl Chart {
@@ -194,17 +194,18 @@ impl Chart {
             .build_cartesian_2d(self.x.clone(), self.y.clone())
             .map_err(|e| e.to_string())?;
         let font = ("sans-serif", FONT).into_font();
-        chart
-            .configure_mesh()
-            .bold_line_style(Ink::Grid.colour())
+        let mut mesh = chart.configure_mesh();
+        mesh.bold_line_style(Ink::Grid.colour())
             .light_line_style(TRANSPARENT)
             .axis_style(Ink::Axis.colour())
             .label_style(font.clone().color(&Ink::Text.colour()))
             .axis_desc_style(font.clone().color(&Ink::Text.colour()))
-            .x_desc(self.x.label.as_str())
-            .y_desc(self.y.label.as_str())
-            .draw()
-            .map_err(|e| e.to_string())?;
+            .x_desc(self.x.label.as_str());
+        // An empty text would still be one, outside the figure.
+        if !self.y.label.is_empty() {
+            mesh.y_desc(self.y.label.as_str());
+        }
+        mesh.draw().map_err(|e| e.to_string())?;
         for layer in &self.layers {
             match layer {
                 Layer::Line { ink, points } => {

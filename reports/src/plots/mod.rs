@@ -11,8 +11,11 @@ pub mod cost;
 pub mod curves;
 pub mod family;
 mod ink;
+pub mod map;
 pub mod picture;
 pub mod race;
+mod shapes;
+pub mod sketch;
 mod ticks;
 
 pub use ink::Ink;

@@ -88,7 +88,11 @@ fn every_link_within_the_page_leads_somewhere() {
 fn every_figure_can_be_read_aloud_and_follows_the_theme() {
     let page = the_page();
     let figures: Vec<&str> = page.split("<svg ").skip(1).filter_map(|s| s.split("</svg>").next()).collect();
-    assert_eq!(figures.len(), 9, "family, bias, budget, work, seconds, picture, curves, residuals, order");
+    assert_eq!(
+        figures.len(),
+        10,
+        "family, bias, budget, work, seconds, sketch, picture, curves, residuals, order"
+    );
     for figure in figures {
         assert!(figure.contains("role=\"img\"") && figure.contains("<title>") && figure.contains("<desc>"));
         let hard = figure.split(['"', ' ']).find(|word| word.starts_with('#'));

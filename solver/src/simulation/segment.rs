@@ -8,6 +8,7 @@ use crate::dynamics::State;
 use crate::dynamics::ledger::WorkDone;
 use crate::error::{Error, Result};
 use crate::model::Model;
+use crate::stage::{Stage, timed};
 use crate::work::Work;
 
 /// A scheme on one model.
@@ -167,7 +168,7 @@ impl<'a> Course<'a> {
     ) -> std::result::Result<(), E> {
         let energies = self.energies(look);
         self.worst_closure = self.worst_closure.max(energies.closure());
-        watch(&Snapshot {
+        let snapshot = Snapshot {
             model,
             state: &look.state,
             factor: self.plan.loads.at(look.state.time),
@@ -175,6 +176,7 @@ impl<'a> Course<'a> {
             gap: look.gap,
             reactions: &look.reactions,
             switches: self.switches,
-        })
+        };
+        timed(Stage::Output, || watch(&snapshot))
     }
 }

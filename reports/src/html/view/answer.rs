@@ -20,9 +20,10 @@ pub(crate) struct Answer {
     link: String,
 }
 
-/// Whether each claim holds and why, and what 1 % costs.
-pub(super) fn answers(results: &Results, costs: &[Figure]) -> Vec<Answer> {
-    claims(results).chain(cost(costs)).collect()
+/// Whether each claim holds and why, what 1 % costs, and how far the hard cases are from breaking: `margins` says so
+/// where some were run.
+pub(super) fn answers(results: &Results, costs: &[Figure], margins: Option<&str>) -> Vec<Answer> {
+    claims(results).chain(cost(costs)).chain(margins.map(stability)).collect()
 }
 
 /// The claims under test first, then our own, which answer them.
@@ -39,12 +40,23 @@ fn claims(results: &Results) -> impl Iterator<Item = Answer> {
 }
 
 fn cost(costs: &[Figure]) -> Option<Answer> {
-    let sentence = |f: &Figure| format!("{}: {}", f.title, f.note);
-    (!costs.is_empty()).then(|| Answer {
+    let told = costs.iter().filter(|f| !f.note.is_empty());
+    let sentences: Vec<String> = told.map(|f| format!("{}: {}", f.title, f.note)).collect();
+    (!sentences.is_empty()).then(|| Answer {
         question: "What does an error of 1 % cost?".to_owned(),
         headline: String::new(),
-        text: costs.iter().map(sentence).collect::<Vec<_>>().join(" "),
+        text: sentences.join(" "),
         verdict: String::new(),
         link: "cost".to_owned(),
     })
+}
+
+fn stability(margins: &str) -> Answer {
+    Answer {
+        question: "How far are the hard cases from breaking?".to_owned(),
+        headline: String::new(),
+        text: margins.to_owned(),
+        verdict: String::new(),
+        link: "stability".to_owned(),
+    }
 }

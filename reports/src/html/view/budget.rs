@@ -1,6 +1,6 @@
 //! Error budgets: a waterfall, and which two runs each part is the difference of.
 
-use crate::format::{percent, signed_percent};
+use crate::format::{percent, signed_percent, typeset};
 use crate::plots::{self, Figure};
 use seam_cases::result::{Budget, BudgetPart};
 use serde::Serialize;
@@ -17,7 +17,7 @@ pub(crate) struct BudgetView {
 pub(super) fn view(case: &str, b: &Budget) -> Option<BudgetView> {
     let part = |p: &BudgetPart| {
         let scatter = p.scatter.map_or(String::new(), |s| format!("± {}", percent(s)));
-        [p.name.clone(), signed_percent(p.value), scatter, p.how.clone()]
+        [p.name.clone(), typeset(&signed_percent(p.value)), scatter, p.how.clone()]
     };
     let figure = plots::budget::waterfall(b)?;
     Some(BudgetView { figure, case: case.to_owned(), parts: b.parts.iter().map(part).collect() })

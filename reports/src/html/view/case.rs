@@ -1,5 +1,6 @@
 //! What the part of a case shows.
 
+use crate::activity::Activity;
 use crate::format::{self, percent, share};
 use crate::html::prose;
 use crate::plots::{self, Figure};
@@ -20,8 +21,9 @@ pub(crate) struct Case {
     tightest: String,
     parameters: Vec<[String; 4]>,
     pub(super) figures: Vec<Figure>,
+    pub(super) sketches: Vec<Figure>,
     pub(super) pictures: Vec<Figure>,
-    curves: Vec<[String; 6]>,
+    curves: Vec<[String; 7]>,
     work: Vec<(&'static str, String)>,
     notes: Vec<String>,
 }
@@ -50,6 +52,7 @@ pub(super) fn view(judged: &CaseJudgement, measured: Option<&CaseResult>) -> Cas
         tightest: tightest.map_or(String::new(), |(h, id)| format!("{:.0} % left in {id}", 100.0 * h)),
         parameters: m.parameters.iter().map(parameter).collect(),
         figures: curves.chain(orders).flatten().collect(),
+        sketches: m.pictures.iter().filter_map(plots::sketch::sketch).collect(),
         pictures: m.pictures.iter().filter_map(plots::picture::picture).collect(),
         curves: judged.curves.iter().map(curve).collect(),
         work: work(judged),
@@ -59,17 +62,18 @@ pub(super) fn view(judged: &CaseJudgement, measured: Option<&CaseResult>) -> Cas
 
 fn parameter(p: &Parameter) -> [String; 4] {
     let unit = if p.unit == "1" { String::new() } else { p.unit.clone() };
-    [p.name.clone(), format::value(p.value), unit, p.about.clone()]
+    [p.name.clone(), format::typeset(&format::value(p.value)), unit, p.about.clone()]
 }
 
-fn curve(c: &CurveResult) -> [String; 6] {
+fn curve(c: &CurveResult) -> [String; 7] {
     let of = |e: Option<f64>| e.map_or("–".to_owned(), percent);
     let state = match c.verdict {
         Verdict::Pass => "compared",
         Verdict::Fail => "covers too little",
         Verdict::Undetermined => "not comparable",
     };
-    [c.plot.clone(), c.series.clone(), share(c.coverage), of(c.e2), of(c.e_max), state.to_owned()]
+    let activity = Activity::against(c.kind).name().to_owned();
+    [c.plot.clone(), c.series.clone(), activity, share(c.coverage), of(c.e2), of(c.e_max), state.to_owned()]
 }
 
 /// The counters that are not zero.

@@ -8,6 +8,8 @@ mod claim;
 mod failures;
 mod numbers;
 mod race;
+mod stability;
+mod studies;
 
 use crate::activity::Activity;
 use crate::exit::Exit;
@@ -35,11 +37,17 @@ pub(super) struct Page {
     costs: Vec<Figure>,
     agreements: agreement::Agreements,
     race: Option<race::RaceView>,
+    stability: Option<stability::Stability>,
+    cost_tables: Vec<studies::CostView>,
+    ablations: Vec<studies::AblationView>,
     cases: Vec<case::Case>,
     provenance: Provenance,
     timings: Vec<(String, String)>,
     seconds: String,
     second_costs: Vec<Figure>,
+    second_advantages: Vec<[String; 4]>,
+    stages: Vec<studies::StageView>,
+    timed: Vec<[String; 4]>,
 }
 
 impl Page {
@@ -47,11 +55,12 @@ impl Page {
     pub(super) fn figures(&self) -> impl Iterator<Item = (String, &Figure)> {
         let claims = self.claims.iter().filter_map(claim::Claim::figure);
         let budgets = self.budgets.iter().map(|b| &b.figure);
-        let totals = self.bias.iter().chain(budgets).chain(&self.costs).chain(&self.second_costs);
+        let maps = self.stability.iter().flat_map(stability::Stability::maps);
         let race = self.race.iter().flat_map(|race| &race.figures);
-        let totals = totals.chain(race);
+        let totals = self.bias.iter().chain(budgets).chain(&self.costs).chain(&self.second_costs);
+        let totals = totals.chain(maps).chain(race);
         let cases = self.cases.iter().flat_map(|c| {
-            let figures = c.pictures.iter().chain(&c.figures);
+            let figures = c.sketches.iter().chain(&c.pictures).chain(&c.figures);
             figures.map(|figure| (format!("{}-{}", c.judged.id, slug(&figure.title)), figure))
         });
         claims.chain(totals.map(|figure| (slug(&figure.title), figure))).chain(cases)
@@ -72,17 +81,22 @@ pub(super) fn page(results: &Results, cases: &[CaseResult]) -> Page {
     let with = |v| quantities().filter(|q| q.verdict == Some(v)).count();
     let shown = || results.cases.iter().filter_map(|c| measured(&c.id));
     let costs =
-        |cost| shown().flat_map(|c| &c.costs).filter_map(|d| plots::cost::work_precision(d, cost)).collect();
+        |cost| shown().flat_map(|c| &c.costs).flat_map(|d| plots::cost::work_precision(d, cost)).collect();
     let claims = results.cases.iter().flat_map(|c| c.claims.iter().map(move |j| (c, j)));
     let budgets = shown().flat_map(|c| c.budgets.iter().filter_map(|b| budget::view(&c.id, b)));
     let outcome = results.exit(true);
     let work_costs: Vec<Figure> = costs(Cost::Work);
+    let stability = stability::section(results, cases);
     Page {
         outcome: outcome_words(outcome),
         good: outcome == Exit::Pass,
         counts: [with(Verdict::Pass), with(Verdict::Fail), with(Verdict::Undetermined)],
         activities: activities(results),
-        answers: answer::answers(results, &work_costs),
+        answers: answer::answers(
+            results,
+            &work_costs,
+            stability.as_ref().and_then(stability::Stability::sentence),
+        ),
         failures: failures::views(results),
         claims: claims.map(|(c, j)| claim::claim(c, j, measured(&c.id))).collect(),
         rows: numbers::rows(results),
@@ -91,11 +105,17 @@ pub(super) fn page(results: &Results, cases: &[CaseResult]) -> Page {
         costs: work_costs,
         agreements: agreement::view(results),
         race: results.race.as_ref().map(race::view),
+        cost_tables: studies::costs(results),
+        ablations: studies::ablations(results),
+        stability,
         cases: results.cases.iter().map(|c| case::view(c, measured(&c.id))).collect(),
         provenance: results.provenance.clone(),
         timings: results.cases.iter().map(|c| (c.id.clone(), seconds(c.seconds))).collect(),
         seconds: seconds(results.cases.iter().map(|c| c.seconds).sum()),
         second_costs: costs(Cost::Seconds),
+        second_advantages: studies::in_seconds(results),
+        stages: shown().flat_map(|c| c.costs.iter().map(|d| studies::stages(&c.id, d))).collect(),
+        timed: studies::timed(results),
     }
 }
 

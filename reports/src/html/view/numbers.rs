@@ -2,7 +2,7 @@
 
 use crate::activity::Activity;
 use crate::failure::interval;
-use crate::format;
+use crate::format::{self, typeset};
 use crate::results::{CaseJudgement, QuantityResult, Results};
 use crate::terminal::{error, kind_name};
 use serde::Serialize;
@@ -37,7 +37,7 @@ pub(super) fn rows(results: &Results) -> Vec<Row> {
 }
 
 fn row(case: &CaseJudgement, q: &QuantityResult) -> Row {
-    let value = q.value.map_or("not measured".to_owned(), |v| format::with_unit(v, &q.unit));
+    let value = q.value.map_or("not measured".to_owned(), |v| printed(v, &q.unit));
     let activity = Activity::of(q);
     Row {
         case: case.id.clone(),
@@ -45,24 +45,27 @@ fn row(case: &CaseJudgement, q: &QuantityResult) -> Row {
         label: q.label.clone(),
         value,
         number: q.value.unwrap_or(f64::MAX),
-        reference: q.reference.map_or(String::new(), |r| format::with_unit(r, &q.unit)),
+        reference: q.reference.map_or(String::new(), |r| printed(r, &q.unit)),
         reference_number: q.reference.unwrap_or(f64::MAX),
         activity: activity.name(),
         kind: if activity == Activity::None { "" } else { kind_name(q) },
         source: q.source.clone(),
-        error: error(q),
+        error: typeset(&error(q)),
         error_number: q.error.map_or(-1.0, f64::abs),
-        interval: interval(q).unwrap_or_default(),
+        interval: interval(q).map_or(String::new(), |i| typeset(&i)),
         width: half_width(q).unwrap_or(f64::MAX),
         why: q.why.clone(),
         headroom: q.headroom,
         headroom_text: q.headroom.map_or(String::new(), |h| format!("{:.0} %", 100.0 * h)),
-        regression: q
-            .regression
-            .filter(|r| *r != 0.0)
-            .map_or(String::new(), |r| format!("{} since last accepted", format::signed_percent(r))),
+        regression: q.regression.filter(|r| *r != 0.0).map_or(String::new(), |r| {
+            typeset(&format!("{} since last accepted", format::signed_percent(r)))
+        }),
         verdict: q.verdict.map_or("shown".to_owned(), |v| v.to_string()),
     }
+}
+
+fn printed(v: f64, unit: &str) -> String {
+    typeset(&format::with_unit(v, unit))
 }
 
 /// Half width of the accepted interval, over the reference where there is one.
