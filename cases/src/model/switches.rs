@@ -105,7 +105,8 @@ impl<'a> Filling<'a> {
         let own_rows = (rows * block.sides().y / self.height).round().max(1.0) as usize;
         let body = &context.scene.bodies[&self.switch.body];
         let mut notes = self.notes.borrow_mut();
-        let network = particles::fill(context, &key, (body, de), (block, own_rows), &mut notes)?;
+        let mut network = particles::fill(context, &key, (body, de), (block, own_rows), &mut notes)?;
+        context.file.spoil_network(&mut network);
         self.packed.borrow_mut().push((block, network.clone()));
         Ok(network)
     }

@@ -52,7 +52,7 @@ fn through(
         .collect::<std::result::Result<Vec<_>, Refusal>>()?;
     let fills: Vec<Fill> =
         fillings.iter().map(|filling| Box::new(|block, _| filling.fill(block)) as Fill).collect();
-    let plan = Plan {
+    let mut plan = Plan {
         stepping: stepping(&context, dynamics)?,
         end_s: number(&dynamics.end_s, "end_s")?,
         initial_velocity: velocity.as_deref(),
@@ -65,6 +65,7 @@ fn through(
         outputs: dynamics.outputs.count(context.values, 1, "dynamics.outputs")?,
         switches: fillings.iter().zip(&fills).map(|(filling, fill)| filling.rule(fill)).collect(),
     };
+    file.spoil_plan(&mut plan);
     let outcome = simulation::run(built.model.clone(), &plan, &mut |snapshot| Ok(watch(snapshot)?));
     drop(plan);
     drop(fills);

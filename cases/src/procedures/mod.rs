@@ -137,7 +137,12 @@ impl Setting<'_> {
 
     /// The numbers of a reference, once they are known to be whole.
     fn dataset(&self, case: &str, source: &str) -> Result<Dataset> {
-        find(case, source).and_then(|reference| reference.open()).map_err(|problem| self.reference(problem))
+        let spoiled = |mut reference| {
+            self.file.spoil_reference(&mut reference);
+            reference
+        };
+        let found = find(case, source).map(spoiled);
+        found.and_then(|reference| reference.open()).map_err(|problem| self.reference(problem))
     }
 }
 

@@ -10,6 +10,7 @@ mod check_dynamics;
 pub mod check_notched_beam;
 mod check_peer;
 mod check_probe;
+mod check_size;
 mod check_study;
 mod check_switch;
 pub mod connection;
@@ -24,6 +25,7 @@ pub mod parameter;
 pub mod peer;
 pub mod probe;
 pub mod quantity;
+mod simulated;
 pub mod study;
 pub mod switch;
 
@@ -63,6 +65,9 @@ pub struct Scene {
     /// Largest model that is run.
     #[serde(default)]
     pub limits: Limits,
+    /// Quantities that are known to fail, by id, each with the reason. One that passes raises an alarm.
+    #[serde(default)]
+    pub expected_failures: BTreeMap<String, String>,
     /// Effects to simulate: their names, or `["auto"]` for those that the tables ask for.
     #[serde(default = "auto")]
     pub effects: Vec<String>,
@@ -141,6 +146,11 @@ pub struct Scene {
     /// Effects that are switched on and off.
     #[serde(default)]
     pub ablations: BTreeMap<String, study::AblationDeclaration>,
+}
+
+/// JSON schema of a scene file, ending in a newline; published as `cases/scene.schema.json`.
+pub fn schema() -> String {
+    format!("{:#}\n", schemars::schema_for!(Scene).as_value())
 }
 
 fn yes() -> bool {
@@ -235,11 +245,15 @@ pub struct Limits {
     pub particles: usize,
     /// Most nodes of a body.
     pub nodes: usize,
+    /// Most stations of a line or a history.
+    pub stations: usize,
+    /// Most members of a family, seeds included.
+    pub members: usize,
 }
 
 impl Default for Limits {
     fn default() -> Self {
-        Self { particles: 200_000, nodes: 500_000 }
+        Self { particles: 200_000, nodes: 500_000, stations: 100_000, members: 100_000 }
     }
 }
 

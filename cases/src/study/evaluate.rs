@@ -139,7 +139,8 @@ pub fn solve(file: &SceneFile, tally: &Tally) -> Result<Solved> {
 }
 
 fn stand(file: &SceneFile, built: Built) -> Result<Solved> {
-    let solution = statics::solve(&built.model).map_err(|e| file.solver(e))?;
+    let mut solution = statics::solve(&built.model).map_err(|e| file.solver(e))?;
+    file.spoil_solution(&built.model, &mut solution);
     let mut supports = Supports::new(&built);
     supports.follow(&built.model, 0);
     let by_probe = read(file, &built, &solution, &supports, |_| true)?;

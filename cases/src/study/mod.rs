@@ -145,6 +145,7 @@ pub fn head(file: &SceneFile, tier: Tier) -> CaseResult {
         scene_hash: file.hash(),
         command: command(file, tier),
         parameters: scene.parameters.iter().map(parameter).collect(),
+        expected_failures: scene.expected_failures.clone(),
         ..CaseResult::default()
     }
 }

@@ -14,6 +14,7 @@ use seam_cases::file::SceneFile;
 use seam_cases::result::CaseResult;
 use seam_cases::write;
 use seam_reports::exit::Exit;
+use seam_reports::record::Recorded;
 use seam_reports::terminal;
 use std::collections::BTreeMap;
 
@@ -44,7 +45,7 @@ fn finish(words: &Studied, kind: &str, found: &[CaseResult]) -> Result<Exit> {
             eprintln!("{}", path.display());
         }
     }
-    let judged = results::judged(found, BTreeMap::new())?;
+    let judged = results::judged(found, BTreeMap::new(), &Recorded::project()?);
     print(&terminal::table(&judged, style()))?;
     Ok(judged.exit(false))
 }
