@@ -9,6 +9,7 @@ mod bond_for_bond_dynamic;
 mod bond_for_bond_networks;
 mod bond_for_bond_static;
 mod bond_matrix;
+pub(crate) mod breaking_bonds;
 mod calculix;
 mod cantilever_eigenfrequencies;
 mod compared;
@@ -50,6 +51,7 @@ const REGISTRY: &[(&str, Procedure)] = &[
     (bond_for_bond::DYNAMIC, bond_for_bond_dynamic::run),
     (bond_for_bond::STATIC, bond_for_bond_static::run),
     ("bond-matrix", bond_matrix::run),
+    ("breaking-bonds", breaking_bonds::run),
     ("bond-radius", hard::bond_radius::run),
     ("calculix", calculix::run),
     ("cantilever-eigenfrequencies", cantilever_eigenfrequencies::run),
