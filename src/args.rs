@@ -170,6 +170,12 @@ pub struct Run {
     /// How the cases are run
     #[command(flatten)]
     pub running: Running,
+    /// Keep the scene's own run in time after every N outputs, in ID.checkpoint in the folder for results
+    #[arg(long, value_name = "N")]
+    pub checkpoint_every: Option<NonZeroUsize>,
+    /// Go on from a checkpoint of the same scene
+    #[arg(long, value_name = "FILE")]
+    pub restart: Option<PathBuf>,
 }
 
 /// `seam study`

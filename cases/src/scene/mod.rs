@@ -69,6 +69,10 @@ pub struct Scene {
     /// Effects to simulate: their names, or `["auto"]` for those that the tables ask for.
     #[serde(default = "auto")]
     pub effects: Vec<String>,
+    /// Why the problem is posed in linear theory, whatever its displacements, as benchmarks with a modulus of 1 are: rotations may
+    /// then be as large as they like.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub linear: Option<String>,
     /// Plane or solid.
     #[serde(default = "plane_stress")]
     pub hypothesis: Hypothesis,

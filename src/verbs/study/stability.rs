@@ -3,7 +3,6 @@
 use super::finish;
 use crate::args::{Stability, Studied};
 use crate::progress::Progress;
-use crate::running;
 use anyhow::Result;
 use seam_cases::catalogue;
 use seam_cases::study::Kept;
