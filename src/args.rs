@@ -170,6 +170,12 @@ pub struct Run {
     /// How the cases are run
     #[command(flatten)]
     pub running: Running,
+    /// Keep the scene's own run in time after every N outputs, in ID.checkpoint in the folder for results
+    #[arg(long, value_name = "N")]
+    pub checkpoint_every: Option<NonZeroUsize>,
+    /// Go on from a checkpoint of the same scene
+    #[arg(long, value_name = "FILE")]
+    pub restart: Option<PathBuf>,
 }
 
 /// `seam study`
@@ -179,6 +185,8 @@ pub enum Study {
     Cost(Cost),
     /// Each effect on and off: what it changes, what it costs, and whether the scene calls for it
     Effects(Studied),
+    /// Margins of the hard cases; of a scene the digits that survive rounding, its longest step, its drift of energy
+    Stability(Stability),
     /// One run of a scene and the memory it takes
     #[command(hide = true)]
     Alone(Alone),
@@ -203,6 +211,23 @@ pub struct Alone {
     /// Set a key of the scene
     #[arg(long = "set")]
     pub overrides: Vec<String>,
+}
+
+/// `seam study stability`
+#[derive(Debug, Args)]
+pub struct Stability {
+    /// Ids of the catalogue or paths of scene files; the hard cases if none is given
+    #[arg(value_name = "ID|SCENE.toml")]
+    pub cases: Vec<String>,
+    /// Set a key of the scene, e.g. --set parameters.rows=16
+    #[arg(long = "set", value_name = "KEY.PATH=VALUE")]
+    pub overrides: Vec<String>,
+    /// Folder for results; a study lies beside the run of its case
+    #[arg(long, value_name = "DIR", default_value = "out")]
+    pub out: PathBuf,
+    /// How the cases are run
+    #[command(flatten)]
+    pub running: Running,
 }
 
 /// What a study is of.

@@ -5,6 +5,7 @@ use crate::progress::Progress;
 use crate::{message, results, select};
 use anyhow::{Result, anyhow, bail};
 use rayon::prelude::*;
+use seam_cases::checkpoint::Checkpoints;
 use seam_cases::file::SceneFile;
 use seam_cases::overrides::Override;
 use seam_cases::result::CaseResult;
@@ -77,8 +78,13 @@ pub struct Failed {
 }
 
 /// Runs scenes into `out` and gives those that failed; a failure leaves the others, and the case's own
-/// earlier result, whole.
-pub fn run(files: &[SceneFile], out: &Path, running: &Running) -> Result<Vec<Failed>> {
+/// earlier result, whole. `checkpoints` of a case are found by its id.
+pub fn run(
+    files: &[SceneFile],
+    out: &Path,
+    running: &Running,
+    checkpoints: &(dyn Fn(&str) -> Checkpoints + Sync),
+) -> Result<Vec<Failed>> {
     // Before anything is computed that could not be kept.
     std::fs::create_dir_all(out)
         .map_err(|e| anyhow!("--out {}: {e}; name a folder that can be written", out.display()))?;
@@ -89,7 +95,7 @@ pub fn run(files: &[SceneFile], out: &Path, running: &Running) -> Result<Vec<Fai
     let mut order: Vec<&SceneFile> = files.iter().collect();
     order.sort_by(|a, b| b.scene.needs.minutes.total_cmp(&a.scene.needs.minutes));
     let failure = |file: &&SceneFile| {
-        let error = one(file, out, running, &progress).err()?;
+        let error = one(file, out, running, (&checkpoints(&file.scene.id), &progress)).err()?;
         Some(Failed { id: file.scene.id.clone(), error })
     };
     let failed = pool.install(|| order.par_iter().with_max_len(1).filter_map(failure).collect());
@@ -105,14 +111,20 @@ pub fn none_failed(failed: Vec<Failed>) -> Result<()> {
     Err(first)
 }
 
-fn one(file: &SceneFile, out: &Path, running: &Running, progress: &Progress) -> Result<()> {
+fn one(
+    file: &SceneFile,
+    out: &Path,
+    running: &Running,
+    (checkpoints, progress): (&Checkpoints, &Progress),
+) -> Result<()> {
     let id = &file.scene.id;
     if running.resume && is_current(file, out, running.tier) {
         progress.done(id, "kept");
         return Ok(());
     }
     progress.begin(id);
-    let run = procedures::run(file, running.tier.into()).inspect_err(|_| progress.done(id, "failed"))?;
+    let run = procedures::run_keeping(file, running.tier.into(), checkpoints)
+        .inspect_err(|_| progress.done(id, "failed"))?;
     write::write(out, &run)?;
     progress.done(id, &format!("{:.1} s", run.result.seconds));
     Ok(())

@@ -149,3 +149,65 @@ fn duplicate_ids_in_a_table() {
 fn nan_in_a_table() {
     refused("nan-in-csv", &["nan-bonds.csv:3: column 'young_Pa'", "'NaN' is not a finite number"]);
 }
+
+#[test]
+fn a_step_above_the_critical_one() {
+    refused(
+        "step-above-critical",
+        &[
+            "time step 1.000000e-4 s is beyond the critical",
+            "of body 'beam'",
+            "take at most the critical step",
+        ],
+    );
+}
+
+#[test]
+fn a_switch_region_without_elements() {
+    refused(
+        "switch-without-elements",
+        &[
+            "region in body 'beam'",
+            "no element has its centre between [0.7, 0.0] and [0.8, 0.1]",
+            "widen the box",
+        ],
+    );
+}
+
+#[test]
+fn a_criterion_without_strength() {
+    refused(
+        "criterion-without-strength",
+        &[
+            "criterion-without-strength.toml:34:",
+            "stress is compared with a strength that is not given",
+            "key: switches.zone.criterion.stress",
+            "mend: give strength_Pa",
+        ],
+    );
+}
+
+#[test]
+fn a_load_after_the_end() {
+    refused(
+        "load-after-end",
+        &[
+            "load-after-end.toml:30:",
+            "the loads begin at 0.02 s, the run ends at 0.01 s",
+            "key: dynamics.loads.ramp.start_s",
+            "mend: begin them earlier, or run longer",
+        ],
+    );
+}
+
+#[test]
+fn finite_rotations_of_a_coupled_scene() {
+    refused(
+        "finite-rotation-coupled",
+        &[
+            "body 'clamped' has finite elements, which know small rotations only",
+            "key: dynamics.rotations",
+            "or compute every body with particles",
+        ],
+    );
+}

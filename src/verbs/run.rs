@@ -3,7 +3,8 @@
 use super::check::print;
 use crate::args::{Records, Run};
 use crate::{results, running};
-use anyhow::Result;
+use anyhow::{Result, bail};
+use seam_cases::checkpoint::Checkpoints;
 use seam_cases::file::SceneFile;
 use seam_reports::exit::Exit;
 
@@ -12,11 +13,18 @@ pub fn run(words: &Run) -> Result<Exit> {
     let recorded = results::recorded(&Records { recorded: None })?;
     let how = (&words.choice, &words.running, words.out.as_path());
     let files = running::selected(&words.cases, &words.overrides, how, &recorded)?;
+    if words.restart.is_some() && files.len() != 1 {
+        bail!("--restart goes on with one case; name it: seam run ID --restart FILE");
+    }
     if words.choice.dry_run {
         print(&plan(&files))?;
         return Ok(Exit::Pass);
     }
-    let failed = running::run(&files, &words.out, &words.running)?;
+    let checkpoints = |id: &str| Checkpoints {
+        keep: words.checkpoint_every.map(|every| (every, words.out.join(format!("{id}.checkpoint")))),
+        from: words.restart.clone(),
+    };
+    let failed = running::run(&files, &words.out, &words.running, &checkpoints)?;
     running::none_failed(failed)?;
     if !words.running.quiet {
         let out = words.out.display();

@@ -8,6 +8,7 @@ use crate::results::Unmeasured;
 use crate::running::Failed;
 use crate::{message, references, results, running};
 use anyhow::Result;
+use seam_cases::checkpoint::Checkpoints;
 use seam_cases::file::SceneFile;
 use seam_cases::write::RESULT;
 use seam_reports::exit::Exit;
@@ -23,7 +24,7 @@ pub fn validate(words: &Validate) -> Result<Exit> {
         print(&plan(&files))?;
         return Ok(Exit::Pass);
     }
-    let failed = running::run(&files, &words.out, &words.running)?;
+    let failed = running::run(&files, &words.out, &words.running, &|_| Checkpoints::default())?;
     // Only what this run is about: other results may lie in the folder. With `--failed` those that are green
     // already belong to it too.
     let all = Choice { failed: false, ..words.choice.clone() };

@@ -22,7 +22,8 @@ use std::f64::consts::PI;
 /// Packs particles into a box.
 type Fill<'a> = Box<dyn Fn(Block, Matter) -> seam_solver::error::Result<Network> + 'a>;
 
-/// Runs a scene in time; `watch` sees every output. The notes of `built` grow by what was packed for switches.
+/// Runs a scene in time, from the start or on from a checkpoint of the solver; `watch` sees every output. The notes of
+/// `built` grow by what was packed for switches.
 ///
 /// # Errors
 /// A fault of the scene that only shows here, what the solver refuses, what `watch` returns.
@@ -30,15 +31,17 @@ pub fn run(
     file: &SceneFile,
     dynamics: &Dynamics,
     built: &mut Built,
+    checkpoint: Option<&[u8]>,
     watch: &mut dyn FnMut(&Snapshot) -> Result<()>,
 ) -> Result<Outcome> {
-    through(file, dynamics, built, watch).map_err(|refusal| refusal.of(file))
+    through(file, dynamics, built, checkpoint, watch).map_err(|refusal| refusal.of(file))
 }
 
 fn through(
     file: &SceneFile,
     dynamics: &Dynamics,
     built: &mut Built,
+    checkpoint: Option<&[u8]>,
     watch: &mut dyn FnMut(&Snapshot) -> Result<()>,
 ) -> std::result::Result<Outcome, Refusal> {
     let context = Context::new(file)?;
@@ -66,7 +69,12 @@ fn through(
         switches: fillings.iter().zip(&fills).map(|(filling, fill)| filling.rule(fill)).collect(),
     };
     file.spoil_plan(&mut plan);
-    let outcome = simulation::run(built.model.clone(), &plan, &mut |snapshot| Ok(watch(snapshot)?));
+    let model = built.model.clone();
+    let mut watch = |snapshot: &Snapshot| Ok(watch(snapshot)?);
+    let outcome = match checkpoint {
+        None => simulation::run(model, &plan, &mut watch),
+        Some(bytes) => simulation::resume(model, &plan, bytes, &mut watch),
+    };
     drop(plan);
     drop(fills);
     built.calibration += context.calibration.get();

@@ -4,6 +4,7 @@
 
 mod cost;
 mod effects;
+mod stability;
 
 use super::check::{print, style};
 use crate::args::{Studied, Study};
@@ -23,6 +24,7 @@ pub fn study(words: &Study) -> Result<Exit> {
     match words {
         Study::Cost(words) => cost::cost(words),
         Study::Effects(words) => effects::effects(words),
+        Study::Stability(words) => stability::stability(words),
         Study::Alone(words) => cost::alone(words),
     }
 }
