@@ -79,11 +79,7 @@ pub fn check(scene: &Scene, values: &Values) -> Checked {
         let key = format!("ablations.{name}");
         if !effects::NAMES.contains(&ablation.effect.as_str()) {
             let message = format!("there is no effect '{}'", ablation.effect);
-            return Err(Fault::new(
-                format!("{key}.effect"),
-                message,
-                hint(&ablation.effect, effects::NAMES.into_iter()),
-            ));
+            return Err(Fault::new(format!("{key}.effect"), message, hint(&ablation.effect, effects::NAMES)));
         }
         variants(scene, &ablation.variants, &format!("{key}.variants"))?;
         if !(ablation.tolerance > 0.0 && ablation.tolerance < 1.0) {
