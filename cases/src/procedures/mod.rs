@@ -4,6 +4,7 @@
 
 mod bar_impact;
 mod bar_sudden_load;
+mod bend;
 pub(crate) mod bond_for_bond;
 mod bond_for_bond_dynamic;
 mod bond_for_bond_networks;
@@ -12,6 +13,7 @@ mod bond_matrix;
 mod calculix;
 mod cantilever_eigenfrequencies;
 mod compared;
+mod cracked_specimens;
 mod elastic_bar;
 mod elastica;
 mod homogenisation;
@@ -19,14 +21,18 @@ mod interface_reflection;
 mod lattice_constants;
 mod long_run;
 mod manufactured;
+mod notch_singularity;
+mod notched_concrete;
 mod rigid_rotation;
 mod roll_up;
 mod scattering;
 mod slender;
+mod slit_lattice;
 mod specimen;
 mod straight;
 mod subcycling;
 mod time_step_orders;
+mod toughness;
 
 use crate::error::{Error, Fault, Result};
 use crate::file::SceneFile;
@@ -54,10 +60,13 @@ const REGISTRY: &[(&str, Procedure)] = &[
     ("lattice-constants", lattice_constants::run),
     ("long-run", long_run::run),
     ("manufactured", manufactured::run),
+    ("notch-singularity", notch_singularity::run),
+    ("notched-concrete", notched_concrete::run),
     ("rigid-rotation", rigid_rotation::run),
     ("roll-up", roll_up::run),
     ("subcycling", subcycling::run),
     ("time-step-orders", time_step_orders::run),
+    ("toughness", toughness::run),
 ];
 
 /// Names a scene may give as its procedure.
