@@ -1,12 +1,15 @@
 //! The `seam` command: words in, exit code out. All else is in the libraries.
 
 mod args;
+mod memory;
 mod message;
 mod progress;
 mod provenance;
 mod references;
 mod results;
 mod running;
+mod select;
+mod selftest;
 mod verbs;
 
 use args::{Command, Verb};
@@ -21,8 +24,15 @@ fn main() -> ExitCode {
         Verb::List(words) => verbs::list(&words),
         Verb::Show(words) => verbs::show(&words),
         Verb::Run(words) => verbs::run(&words),
+        Verb::Study(words) => verbs::study(&words),
         Verb::Check(words) => verbs::check(&words),
         Verb::Report(words) => verbs::report(&words),
+        Verb::Bless(words) => verbs::bless(&words),
+        Verb::Gate(words) => verbs::gate(&words),
+        Verb::Selftest(words) => verbs::selftest(&words),
+        Verb::New(words) => verbs::new(&words),
+        Verb::Schema(words) => verbs::schema(&words),
+        Verb::Completions(words) => verbs::completions(&words),
         Verb::Export(words) => verbs::export(&words),
         Verb::References(words) => verbs::references(&words),
     };

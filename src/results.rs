@@ -1,5 +1,6 @@
 //! From the folders of a run to judged results.
 
+use crate::args::Records;
 use crate::provenance;
 use anyhow::Result;
 use seam_cases::result::CaseResult;
@@ -7,7 +8,7 @@ use seam_reports::judge::judge;
 use seam_reports::record::Recorded;
 use seam_reports::results::Results;
 use std::collections::BTreeMap;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// There is nothing that could be judged.
 #[derive(Debug)]
@@ -36,10 +37,48 @@ pub fn load(from: &Path) -> Result<Vec<CaseResult>> {
             cases.push(read(&file)?);
         }
     }
+    for study in studies(from)? {
+        take_in(&mut cases, study);
+    }
     if cases.is_empty() {
         return Err(Unmeasured(format!("{}: no results; {}", from.display(), run_first(from))).into());
     }
     Ok(cases)
+}
+
+/// What studies found, by kind and case.
+fn studies(from: &Path) -> Result<Vec<CaseResult>> {
+    let mut found = Vec::new();
+    for kind in sorted(&from.join(seam_cases::write::STUDIES))? {
+        let files = sorted(&kind)?;
+        for file in files.iter().filter(|file| file.extension().is_some_and(|e| e == "json")) {
+            found.push(read(file)?);
+        }
+    }
+    Ok(found)
+}
+
+/// What a folder holds, by name; nothing if it is not there.
+fn sorted(folder: &Path) -> Result<Vec<PathBuf>> {
+    if !folder.is_dir() {
+        return Ok(Vec::new());
+    }
+    let entries = std::fs::read_dir(folder)?.collect::<std::io::Result<Vec<_>>>()?;
+    let mut paths: Vec<PathBuf> = entries.into_iter().map(|entry| entry.path()).collect();
+    paths.sort();
+    Ok(paths)
+}
+
+/// A study belongs to the run of its case; without one it stands for itself.
+fn take_in(cases: &mut Vec<CaseResult>, study: CaseResult) {
+    match cases.iter_mut().find(|case| case.id == study.id) {
+        Some(case) if case.scene_hash == study.scene_hash => case.absorb(study),
+        Some(case) => case.notes.push(format!(
+            "a study of another version of this scene is not shown: {}; run it again",
+            study.command
+        )),
+        None => cases.push(study),
+    }
 }
 
 fn run_first(folder: &Path) -> String {
@@ -54,7 +93,15 @@ pub fn read(file: &Path) -> Result<CaseResult> {
     Ok(serde_json::from_str(&text).map_err(|e| unreadable(&e))?)
 }
 
-/// Judges cases, beside references of these hashes, and compares the verdicts with the recorded ones.
-pub fn judged(cases: &[CaseResult], references: BTreeMap<String, String>) -> Result<Results> {
-    Ok(judge(cases, provenance::here(references), &Recorded::project()?))
+/// Judges cases, beside references of these hashes, and compares the verdicts with recorded ones.
+pub fn judged(cases: &[CaseResult], references: BTreeMap<String, String>, recorded: &Recorded) -> Results {
+    judge(cases, provenance::here(references), recorded)
+}
+
+/// The built-in records, or those of a file.
+pub fn recorded(words: &Records) -> Result<Recorded> {
+    Ok(match &words.recorded {
+        Some(file) => Recorded::load(file)?,
+        None => Recorded::project()?,
+    })
 }

@@ -3,11 +3,15 @@
 //! The road: scene file → model → solution → observation → [`result::CaseResult`].
 
 pub mod catalogue;
+pub mod checkpoint;
+pub mod defect;
 pub mod error;
 pub mod export;
 pub mod expression;
 pub mod file;
 pub mod folder;
+pub mod map;
+pub mod margin;
 pub mod model;
 pub mod names;
 pub mod observe;

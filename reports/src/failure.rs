@@ -1,14 +1,20 @@
 //! Failures in words, the same for every view.
 
+use crate::ablation::AblationJudgement;
+use crate::counted::Counter;
 use crate::format::{self, percent, share, with_unit};
+use crate::growth::TimedGrowth;
+use crate::loosened::Loosened;
+use crate::margins::MarginResult;
 use crate::record::RecordState;
 use crate::results::{CaseJudgement, ClaimResult, CurveResult, QuantityResult, Results};
 use crate::verdict::{ClaimVerdict, Verdict};
+use seam_cases::result::{EffectUse, Expected};
 
 /// One thing that keeps the gate from being green.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Failure {
-    /// `FAILED`, `NOT MEASURED` or `COSTS MORE`.
+    /// [`FAILED`], [`NOT_MEASURED`], [`COSTS_MORE`], [`LOOSENED`] or [`PASSES_AGAIN`].
     pub class: &'static str,
     /// Case, and the quantity, curve or claim within it.
     pub place: String,
@@ -22,20 +28,38 @@ pub struct Failure {
     pub rerun: String,
 }
 
-const FAILED: &str = "FAILED";
-const NOT_MEASURED: &str = "NOT MEASURED";
-const COSTS_MORE: &str = "COSTS MORE";
+/// Outside of what was promised.
+pub const FAILED: &str = "FAILED";
+/// An effect that the scene calls for was left out.
+pub const NOT_TRUSTED: &str = "NOT TRUSTED";
+/// Nothing that could be judged.
+pub const NOT_MEASURED: &str = "NOT MEASURED";
+/// More counted work than recorded.
+pub const COSTS_MORE: &str = "COSTS MORE";
+/// A tolerance wider than recorded.
+pub const LOOSENED: &str = "LOOSENED";
+/// An expected failure that is none.
+pub const PASSES_AGAIN: &str = "PASSES AGAIN";
 
-/// Every failure, in the order of the cases.
+/// Every failure: loosened tolerances first, since they change what all else means; then in the order of the cases.
 pub fn failures(results: &Results) -> Vec<Failure> {
-    results.cases.iter().flat_map(of_case).collect()
+    let loosened = results.cases.iter().flat_map(|case| case.loosened.iter().map(|l| of_loosened(case, l)));
+    loosened.chain(results.cases.iter().flat_map(of_case)).collect()
 }
 
-fn of_case(case: &CaseJudgement) -> Vec<Failure> {
+/// The failures of one case, apart from loosened tolerances.
+pub fn of_case(case: &CaseJudgement) -> Vec<Failure> {
     let quantities = case.quantities.iter().filter_map(|q| of_quantity(case, q));
     let curves = case.curves.iter().filter_map(|c| of_curve(case, c));
     let claims = case.claims.iter().filter_map(|c| of_claim(case, c));
-    let all: Vec<Failure> = quantities.chain(curves).chain(claims).chain(of_cost(case)).collect();
+    let margins = case.margins.iter().filter_map(|m| of_margin(case, m));
+    let effects = case.effects.iter().filter_map(|e| of_effect(case, e));
+    let ablations = case.ablations.iter().filter_map(|a| of_ablation(case, a));
+    let timed = case.timed.iter().filter_map(|t| of_timed(case, t));
+    let in_vain = case.expected_in_vain.iter().map(|id| of_expected(case, id));
+    let judged = quantities.chain(curves).chain(margins).chain(claims);
+    let studies = effects.chain(ablations).chain(timed);
+    let all: Vec<Failure> = judged.chain(studies).chain(in_vain).chain(of_cost(case)).collect();
     if all.is_empty() && case.unmeasured() {
         return vec![of_empty(case)];
     }
@@ -51,7 +75,15 @@ fn failure(case: &CaseJudgement, class: &'static str, item: &str) -> Failure {
 fn of_quantity(case: &CaseJudgement, q: &QuantityResult) -> Option<Failure> {
     let bound = interval(q).map_or("a finite number".to_owned(), |i| format!("{i}: {}", q.why));
     match (q.verdict, q.value) {
-        (Some(Verdict::Fail), Some(value)) => Some(Failure {
+        (Some(Verdict::Pass), Some(value)) if q.passes_again() => Some(Failure {
+            measured: format!("{} ({})", with_unit(value, &q.unit), q.label),
+            bound: format!("a failure was expected: {}", q.expected_failure.as_deref().unwrap_or_default()),
+            meaning:
+                "good news: take it out of `expected_failures` of the scene, so that it is guarded again"
+                    .to_owned(),
+            ..failure(case, PASSES_AGAIN, &q.id)
+        }),
+        (Some(Verdict::Fail), Some(value)) if q.failed() => Some(Failure {
             measured: format!("{} ({})", with_unit(value, &q.unit), q.label),
             bound,
             meaning: outside(q),
@@ -102,6 +134,32 @@ fn of_curve(case: &CaseJudgement, c: &CurveResult) -> Option<Failure> {
     })
 }
 
+fn of_margin(case: &CaseJudgement, m: &MarginResult) -> Option<Failure> {
+    let class = match m.verdict {
+        Verdict::Pass => return None,
+        Verdict::Fail => FAILED,
+        Verdict::Undetermined => NOT_MEASURED,
+    };
+    let (bound, meaning) = match m.recorded {
+        _ if m.value.is_none() => ("a finite margin".to_owned(), "nothing was compared".to_owned()),
+        Some(recorded) if !m.too_small() => (
+            format!("{} ± {}, recorded", with_unit(recorded, &m.unit), percent(m.tolerance)),
+            "the margin has changed: find out why before it is accepted".to_owned(),
+        ),
+        _ => (
+            format!("{} has to pass: {}", with_unit(m.needed, &m.unit), m.criterion),
+            "the hard case does not pass where it has to".to_owned(),
+        ),
+    };
+    let value = m.value.map_or("no finite number".to_owned(), |v| with_unit(v, &m.unit));
+    Some(Failure {
+        measured: format!("{value} ({}, {})", m.axis, m.label),
+        bound,
+        meaning,
+        ..failure(case, class, &m.id)
+    })
+}
+
 fn of_claim(case: &CaseJudgement, c: &ClaimResult) -> Option<Failure> {
     let class = match (&c.unmeasured, c.failed()) {
         (Some(_), _) => NOT_MEASURED,
@@ -125,15 +183,90 @@ fn of_claim(case: &CaseJudgement, c: &ClaimResult) -> Option<Failure> {
     Some(Failure { measured, bound, meaning, ..failure(case, class, &c.id) })
 }
 
-fn of_cost(case: &CaseJudgement) -> Option<Failure> {
-    let recorded = case.recorded_work.filter(|_| case.costs_more())?;
-    let now = case.work.total();
+/// An effect that was left out although the scene calls for it.
+fn of_effect(case: &CaseJudgement, effect: &EffectUse) -> Option<Failure> {
+    let indicator = effect.indicator.as_ref().filter(|_| effect.called_for)?;
     Some(Failure {
-        measured: format!("{now} units of counted work"),
-        bound: format!("{recorded}, recorded for the same scene"),
-        meaning: format!("{} more work for the same answer", percent(now as f64 / recorded as f64 - 1.0)),
+        measured: format!("{} is {}", indicator.about, format::significant(indicator.value, 3)),
+        bound: format!("{} without {}", format::significant(indicator.limit, 3), effect.name),
+        meaning: format!(
+            "the scene calls for {}, which was left out: no number of this case is trusted; simulate it, or change the scene",
+            effect.name
+        ),
+        ..failure(case, NOT_TRUSTED, &effect.name)
+    })
+}
+
+fn of_ablation(case: &CaseJudgement, a: &AblationJudgement) -> Option<Failure> {
+    let class = match a.verdict? {
+        Verdict::Pass => return None,
+        Verdict::Fail => FAILED,
+        Verdict::Undetermined => NOT_MEASURED,
+    };
+    let bound = match a.expected {
+        Some(Expected::IsCalledFor) => "is called for, and caught when it is left out",
+        _ => "may be left out, costs nothing then, and the guard is silent",
+    };
+    Some(Failure {
+        measured: format!("{}: {}", a.effect, a.why),
+        bound: bound.to_owned(),
+        meaning: "the effect or its guard does not do what this scene was made to show".to_owned(),
+        ..failure(case, class, &a.id)
+    })
+}
+
+fn of_timed(case: &CaseJudgement, t: &TimedGrowth) -> Option<Failure> {
+    let class = match t.seconds_verdict {
+        Verdict::Pass => return None,
+        Verdict::Fail => FAILED,
+        Verdict::Undetermined => NOT_MEASURED,
+    };
+    let [low, high] = t.accepted;
+    Some(Failure {
+        measured: t.seconds_exponent.map_or("no exponent".to_owned(), |p| format::significant(p, 3)),
+        bound: format!("{low} … {high}: {}", t.why),
+        meaning: "wall time grows otherwise than it should; run it again on a quiet machine first".to_owned(),
+        ..failure(case, class, &t.id)
+    })
+}
+
+fn of_cost(case: &CaseJudgement) -> Option<Failure> {
+    let [more, _] = case.work_changes();
+    let first = more.first()?;
+    let each = |say: fn(&Counter) -> String| more.iter().map(say).collect::<Vec<_>>().join(", ");
+    let meaning = match first.was {
+        0 => "work that was not done before".to_owned(),
+        was => format!(
+            "{} more {} for the same answer",
+            percent(first.now as f64 / was as f64 - 1.0),
+            first.words()
+        ),
+    };
+    Some(Failure {
+        measured: each(|c| format!("{} {}", c.now, c.words())),
+        bound: format!("{}, recorded for the same scene", each(|c| format!("{} {}", c.was, c.words()))),
+        meaning,
         ..failure(case, COSTS_MORE, "work")
     })
+}
+
+fn of_loosened(case: &CaseJudgement, l: &Loosened) -> Failure {
+    Failure {
+        measured: format!("accepted now: {}", l.say_now()),
+        bound: format!("recorded: {}", l.say(l.was)),
+        meaning: "a wider tolerance hides what it was to find; accept it only with a reason, by seam bless"
+            .to_owned(),
+        ..failure(case, LOOSENED, &l.quantity)
+    }
+}
+
+fn of_expected(case: &CaseJudgement, id: &str) -> Failure {
+    Failure {
+        measured: "nothing that is judged".to_owned(),
+        bound: "a failure was expected".to_owned(),
+        meaning: "`expected_failures` of the scene names what is not there; correct or remove it".to_owned(),
+        ..failure(case, FAILED, id)
+    }
 }
 
 fn of_empty(case: &CaseJudgement) -> Failure {

@@ -1,10 +1,11 @@
-//! Recorded verdicts, values and work: what the last accepted run gave.
+//! Recorded verdicts, values, margins and work: what the last accepted run gave.
 //!
 //! A paper's claim may have any honest verdict; the gate goes red when it *changes*. The records
 //! are kept per tier, since the quick tier runs a subset of each family.
 
 use crate::results::Results;
 use crate::verdict::ClaimVerdict;
+use crate::{counted, loosened};
 use schemars::JsonSchema;
 use seam_cases::result::Family;
 use serde::{Deserialize, Serialize};
@@ -36,6 +37,12 @@ pub struct Recorded {
     /// Values of quantities, by case and quantity.
     #[serde(default)]
     pub values: PerTier<BTreeMap<String, f64>>,
+    /// Widths of accepted intervals ([`loosened::width`]), by case and quantity.
+    #[serde(default)]
+    pub tolerances: PerTier<BTreeMap<String, f64>>,
+    /// Margins of hard cases, by case and margin.
+    #[serde(default)]
+    pub margins: PerTier<BTreeMap<String, f64>>,
 }
 
 /// Recorded verdict of a claim.
@@ -58,6 +65,9 @@ pub struct RecordedWork {
     pub scene: String,
     /// `Work::total`.
     pub total: u64,
+    /// Each counter by its name.
+    #[serde(default)]
+    pub counters: BTreeMap<String, u64>,
 }
 
 /// How a verdict relates to the recorded one.
@@ -135,10 +145,19 @@ impl Recorded {
         let mut new = self.clone();
         SCHEMA.clone_into(&mut new.schema);
         for case in &results.cases {
-            let work = RecordedWork { scene: case.scene_hash.clone(), total: case.work.total() };
+            let counters = counted::counters(&case.work);
+            let work = RecordedWork { scene: case.scene_hash.clone(), total: case.work.total(), counters };
             new.work.entry(case.tier.clone()).or_default().insert(case.id.clone(), work);
             let values = case.quantities.iter().filter_map(|q| Some((q.id.clone(), q.value?))).collect();
             new.values.entry(case.tier.clone()).or_default().insert(case.id.clone(), values);
+            let judged = case.quantities.iter();
+            let widths = judged.filter_map(|q| Some((q.id.clone(), loosened::width(q)?))).collect();
+            new.tolerances.entry(case.tier.clone()).or_default().insert(case.id.clone(), widths);
+            let margins: BTreeMap<_, _> =
+                case.margins.iter().filter_map(|m| Some((m.id.clone(), m.value?))).collect();
+            if !margins.is_empty() {
+                new.margins.entry(case.tier.clone()).or_default().insert(case.id.clone(), margins);
+            }
             for c in case.claims.iter().filter(|c| c.unmeasured.is_none()) {
                 let claim = RecordedClaim { verdict: c.verdict, share: c.share, hash: c.hash.clone() };
                 new.claims.entry(case.tier.clone()).or_default().insert(c.id.clone(), claim);
@@ -165,9 +184,19 @@ impl Recorded {
         self.values.get(tier)?.get(case)?.get(quantity).copied()
     }
 
+    /// Recorded margin of a hard case.
+    pub fn margin(&self, tier: &str, case: &str, margin: &str) -> Option<f64> {
+        self.margins.get(tier)?.get(case)?.get(margin).copied()
+    }
+
     /// Recorded work of a case, if it is of the same scene.
-    pub fn work(&self, tier: &str, case: &str, scene: &str) -> Option<u64> {
-        self.work.get(tier)?.get(case).filter(|w| w.scene == scene).map(|w| w.total)
+    pub fn work(&self, tier: &str, case: &str, scene: &str) -> Option<&RecordedWork> {
+        self.work.get(tier)?.get(case).filter(|w| w.scene == scene)
+    }
+
+    /// Recorded widths of the accepted intervals of a case, by quantity.
+    pub fn tolerances(&self, tier: &str, case: &str) -> Option<&BTreeMap<String, f64>> {
+        self.tolerances.get(tier)?.get(case)
     }
 }
 

@@ -18,7 +18,7 @@ pub enum Verdict {
 }
 
 /// Verdict on a claim over a family of settings.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum ClaimVerdict {
     /// Every setting meets the bound, under every reading.
@@ -28,14 +28,15 @@ pub enum ClaimVerdict {
     /// Settings or readings differ.
     Conditional,
     /// The evidence does not decide.
+    #[default]
     Undetermined,
 }
 
-/// Verdict on a measured value: NaN, or an accepted interval with a NaN end, is never a pass and
-/// never a mere failure, it is a failure to measure. `None` where nothing was promised.
+/// Verdict on a measured value: NaN, or an accepted interval that is not closed on both sides, is never
+/// a pass and never a mere failure, it is a failure to measure. `None` where nothing was promised.
 pub fn of_quantity(value: f64, accepted: Option<[f64; 2]>) -> Option<Verdict> {
     let interval = accepted?;
-    Some(if !value.is_finite() || interval.iter().any(|end| end.is_nan()) {
+    Some(if !value.is_finite() || interval.iter().any(|end| !end.is_finite()) {
         Verdict::Undetermined
     } else if within(value, interval) {
         Verdict::Pass
@@ -76,7 +77,9 @@ mod tests {
         assert_eq!(of_quantity(0.9, interval), Some(Verdict::Fail));
         assert_eq!(of_quantity(2.1, interval), Some(Verdict::Fail));
         assert_eq!(of_quantity(f64::NAN, interval), Some(Verdict::Undetermined));
-        assert_eq!(of_quantity(1.5, Some([f64::NAN, 2.0])), Some(Verdict::Undetermined));
+        for open in [f64::NAN, f64::NEG_INFINITY] {
+            assert_eq!(of_quantity(1.5, Some([open, 2.0])), Some(Verdict::Undetermined), "one-sided");
+        }
         assert_eq!(of_quantity(f64::NAN, None), None);
     }
 }

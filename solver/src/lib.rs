@@ -5,6 +5,7 @@
 //! solution with its residual and its [`work::Work`] comes out.
 
 pub mod check;
+pub mod checkpoint;
 pub mod contact;
 pub mod coupling;
 pub mod cracking;
@@ -19,6 +20,7 @@ pub mod model;
 pub mod simulation;
 pub mod solve;
 pub mod space;
+pub mod stage;
 pub mod transfer;
 pub mod vtu;
 pub mod work;

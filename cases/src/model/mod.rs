@@ -8,6 +8,8 @@ mod place;
 mod switches;
 pub mod time;
 
+pub use switches::left_out as switches_left_out;
+
 use crate::error::{Error, Fault, Result};
 use crate::expression::Values;
 use crate::file::SceneFile;
@@ -17,6 +19,8 @@ use crate::scene::{Hypothesis, Scene};
 use seam_solver::fem::elasticity::{self, Elasticity};
 use seam_solver::model::{Model, Part};
 use seam_solver::space::{Space, Vec3};
+use seam_solver::work::Work;
+use std::cell::Cell;
 
 /// A model and what was found out while it was built.
 #[derive(Debug, Clone)]
@@ -27,6 +31,8 @@ pub struct Built {
     pub held_by: Vec<String>,
     /// Packings, calibrations: what a reader must know.
     pub notes: Vec<String>,
+    /// Work of the calibrations, whether they were done now or remembered.
+    pub calibration: Work,
 }
 
 impl Built {
@@ -78,7 +84,9 @@ impl From<Error> for Refusal {
 /// # Errors
 /// A fault of the scene that only shows here, or what the solver refuses.
 pub fn build(file: &SceneFile) -> Result<Built> {
-    assemble(file).map_err(|refusal| refusal.of(file))
+    let mut built = assemble(file).map_err(|refusal| refusal.of(file))?;
+    file.spoil_model(&mut built.model);
+    Ok(built)
 }
 
 fn assemble(file: &SceneFile) -> std::result::Result<Built, Refusal> {
@@ -98,7 +106,8 @@ fn assemble(file: &SceneFile) -> std::result::Result<Built, Refusal> {
     let ties = conditions::ties(&context)?;
     let (held_by, supports) = conditions::supports(&context, &parts)?.into_iter().unzip();
     let loads = conditions::loads(&context, &parts)?;
-    Ok(Built { model: Model { space: context.space, parts, ties, supports, loads }, held_by, notes })
+    let model = Model { space: context.space, parts, ties, supports, loads };
+    Ok(Built { model, held_by, notes, calibration: context.calibration.get() })
 }
 
 fn check_size(scene: &Scene, part: &Part) -> std::result::Result<(), Fault> {
@@ -121,6 +130,8 @@ pub(crate) struct Context<'a> {
     pub values: &'a Values,
     pub space: Space,
     pub hypothesis: elasticity::Hypothesis,
+    /// Work of the calibrations so far.
+    pub calibration: Cell<Work>,
 }
 
 impl<'a> Context<'a> {
@@ -132,7 +143,15 @@ impl<'a> Context<'a> {
             Hypothesis::PlaneStrain => elasticity::Hypothesis::PlaneStrain { thickness_m },
             Hypothesis::Solid => elasticity::Hypothesis::Solid,
         };
-        Ok(Self { file, scene, values, space: scene.hypothesis.space(), hypothesis })
+        let space = scene.hypothesis.space();
+        Ok(Self { file, scene, values, space, hypothesis, calibration: Cell::default() })
+    }
+
+    /// Counts the work of one calibration.
+    pub fn calibrated(&self, work: Work) {
+        let mut sum = self.calibration.get();
+        sum += work;
+        self.calibration.set(sum);
     }
 
     /// Material of a body.

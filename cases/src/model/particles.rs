@@ -16,6 +16,7 @@ use seam_solver::dem::packing::{PackingRecipe, pack};
 use seam_solver::dem::section::Section;
 use seam_solver::dem::skin::Skin;
 use seam_solver::space::Space;
+use seam_solver::stage::{Stage, timed};
 
 /// A facet smaller than this share of a mean cell's side is a rounding of four particles on one circle.
 const LEAST_FACET: f64 = 1e-6;
@@ -54,7 +55,7 @@ pub fn fill(
 ) -> Result<Network, Refusal> {
     let elasticity = context.elasticity(body)?;
     let matter = Matter { density: elasticity.density, thickness_m: context.hypothesis.thickness() };
-    let filling = arrange(context, key, de, (block, rows), matter, notes)?;
+    let filling = timed(Stage::Packing, || arrange(context, key, de, (block, rows), matter, notes))?;
     let (count, limit) = (filling.arrangement.particles.len(), context.scene.limits.particles);
     if count > limit {
         let message = format!("{count} particles are more than the limit of {limit}");
@@ -223,10 +224,11 @@ fn recipe(
         return Ok(given);
     }
     let both = de.bond.calibrate == Calibrate::Both;
-    let found = match made {
+    let (found, work) = match made {
         Made::Lattice(unit) => calibration::lattice(*unit, target, &given, both)?,
         Made::Packing(protocol) => calibration::packing(protocol, target, &given, both)?,
     };
+    context.calibrated(work);
     notes.push(format!(
         "{key}: radius ratio {:.4}, bond modulus {:.4e} Pa ({})",
         found.section.ratio(),

@@ -16,6 +16,7 @@ mod compared;
 mod cracked_specimens;
 mod elastic_bar;
 mod elastica;
+mod hard;
 mod homogenisation;
 mod interface_reflection;
 mod lattice_constants;
@@ -23,6 +24,7 @@ mod long_run;
 mod manufactured;
 mod notch_singularity;
 mod notched_concrete;
+mod plane_reflection;
 mod rigid_rotation;
 mod roll_up;
 mod scattering;
@@ -34,6 +36,7 @@ mod subcycling;
 mod time_step_orders;
 mod toughness;
 
+use crate::checkpoint::Checkpoints;
 use crate::error::{Error, Fault, Result};
 use crate::file::SceneFile;
 use crate::result::{CaseResult, Observation};
@@ -47,26 +50,39 @@ type Procedure = fn(&Setting, &mut CaseResult) -> Result<()>;
 
 /// Names and procedures that need no bodies.
 const REGISTRY: &[(&str, Procedure)] = &[
+    ("bad-states", hard::bad_states::run),
     ("bar-impact", bar_impact::run),
     ("bar-sudden-load", bar_sudden_load::run),
     (bond_for_bond::DYNAMIC, bond_for_bond_dynamic::run),
     (bond_for_bond::STATIC, bond_for_bond_static::run),
     ("bond-matrix", bond_matrix::run),
+    ("bond-radius", hard::bond_radius::run),
     ("calculix", calculix::run),
     ("cantilever-eigenfrequencies", cantilever_eigenfrequencies::run),
+    ("constraints", hard::constraints::run),
+    ("contact-after-break", hard::contact_after_break::run),
+    ("contrast", hard::contrast::run),
+    ("critical-step", hard::critical_step::run),
+    ("distortion", hard::distortion::run),
     ("elastica", elastica::run),
     ("homogenisation", homogenisation::run),
+    ("incompressible", hard::incompressible::run),
     ("interface-reflection", interface_reflection::run),
     ("lattice-constants", lattice_constants::run),
     ("long-run", long_run::run),
     ("manufactured", manufactured::run),
     ("notch-singularity", notch_singularity::run),
     ("notched-concrete", notched_concrete::run),
+    ("reproducible", hard::reproducible::run),
     ("rigid-rotation", rigid_rotation::run),
     ("roll-up", roll_up::run),
+    ("single-break", hard::single_break::run),
+    ("slenderness", hard::slenderness::run),
+    ("stability-maps", hard::maps::run),
     ("subcycling", subcycling::run),
     ("time-step-orders", time_step_orders::run),
     ("toughness", toughness::run),
+    ("transfer-at-peak", hard::transfer_at_peak::run),
 ];
 
 /// Names a scene may give as its procedure.
@@ -79,8 +95,20 @@ pub fn names() -> impl Iterator<Item = &'static str> + Clone {
 /// # Errors
 /// A fault of the scene, or what the solver refuses.
 pub fn run(file: &SceneFile, tier: Tier) -> Result<Run> {
+    run_keeping(file, tier, &Checkpoints::default())
+}
+
+/// The same with checkpoints of the scene's run in time.
+///
+/// # Errors
+/// As [`run`]; a case that has no run in time; a checkpoint that cannot be read, written or used.
+pub fn run_keeping(file: &SceneFile, tier: Tier, checkpoints: &Checkpoints) -> Result<Run> {
+    if file.scene.dynamics.is_none() && !checkpoints.is_off() {
+        let message = "the case has no run in time to keep or to restart; leave the checkpoints out";
+        return Err(file.error(Fault::new("dynamics", message, "name a scene with [dynamics]")));
+    }
     let Some((_, procedure)) = REGISTRY.iter().find(|(name, _)| *name == file.scene.procedure) else {
-        return study::run(file, tier);
+        return study::run(file, tier, checkpoints);
     };
     let start = Instant::now();
     let mut result = study::head(file, tier);
@@ -130,7 +158,12 @@ impl Setting<'_> {
 
     /// The numbers of a reference, once they are known to be whole.
     fn dataset(&self, case: &str, source: &str) -> Result<Dataset> {
-        find(case, source).and_then(|reference| reference.open()).map_err(|problem| self.reference(problem))
+        let spoiled = |mut reference| {
+            self.file.spoil_reference(&mut reference);
+            reference
+        };
+        let found = find(case, source).map(spoiled);
+        found.and_then(|reference| reference.open()).map_err(|problem| self.reference(problem))
     }
 }
 

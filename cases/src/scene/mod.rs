@@ -9,11 +9,13 @@ mod check_connection;
 mod check_dynamics;
 pub mod check_notched_beam;
 mod check_probe;
+mod check_size;
 mod check_study;
 mod check_switch;
 pub mod connection;
 pub mod de;
 pub mod dynamics;
+pub mod effects;
 pub mod fe;
 pub mod material;
 mod none;
@@ -21,6 +23,7 @@ pub mod number;
 pub mod parameter;
 pub mod probe;
 pub mod quantity;
+mod simulated;
 pub mod study;
 pub mod switch;
 
@@ -60,9 +63,16 @@ pub struct Scene {
     /// Largest model that is run.
     #[serde(default)]
     pub limits: Limits,
-    /// Effects to simulate, or `["auto"]`.
+    /// Quantities that are known to fail, by id, each with the reason. One that passes raises an alarm.
+    #[serde(default)]
+    pub expected_failures: BTreeMap<String, String>,
+    /// Effects to simulate: their names, or `["auto"]` for those that the tables ask for.
     #[serde(default = "auto")]
     pub effects: Vec<String>,
+    /// Why the problem is posed in linear theory, whatever its displacements, as benchmarks with a modulus of 1 are: rotations may
+    /// then be as large as they like.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub linear: Option<String>,
     /// Plane or solid.
     #[serde(default = "plane_stress")]
     pub hypothesis: Hypothesis,
@@ -99,6 +109,9 @@ pub struct Scene {
     /// Switches that are not enabled: probes may name them and read nothing.
     #[serde(skip)]
     pub switches_off: BTreeSet<String>,
+    /// What the list of effects leaves out.
+    #[serde(skip)]
+    pub left_out: effects::LeftOut,
     /// What is read off.
     #[serde(default)]
     pub probes: BTreeMap<String, probe::Probe>,
@@ -126,6 +139,17 @@ pub struct Scene {
     /// Work–precision diagrams.
     #[serde(default)]
     pub costs: BTreeMap<String, study::CostDeclaration>,
+    /// How cost grows with size.
+    #[serde(default)]
+    pub growth: BTreeMap<String, study::GrowthDeclaration>,
+    /// Effects that are switched on and off.
+    #[serde(default)]
+    pub ablations: BTreeMap<String, study::AblationDeclaration>,
+}
+
+/// JSON schema of a scene file, ending in a newline; published as `cases/scene.schema.json`.
+pub fn schema() -> String {
+    format!("{:#}\n", schemars::schema_for!(Scene).as_value())
 }
 
 fn yes() -> bool {
@@ -220,11 +244,15 @@ pub struct Limits {
     pub particles: usize,
     /// Most nodes of a body.
     pub nodes: usize,
+    /// Most stations of a line or a history.
+    pub stations: usize,
+    /// Most members of a family, seeds included.
+    pub members: usize,
 }
 
 impl Default for Limits {
     fn default() -> Self {
-        Self { particles: 200_000, nodes: 500_000 }
+        Self { particles: 200_000, nodes: 500_000, stations: 100_000, members: 100_000 }
     }
 }
 

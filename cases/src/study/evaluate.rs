@@ -1,12 +1,14 @@
 //! One run of one scene: an equilibrium, or a run in time.
 
 use super::reference::Reference;
+use crate::checkpoint::Checkpoints;
 use crate::error::Result;
 use crate::file::SceneFile;
 use crate::model::{self, Built, time};
 use crate::observe::curve::Curve;
 use crate::observe::field::Field;
-use crate::observe::history::Recorder;
+use crate::observe::guard::Guard;
+use crate::observe::history::{Histories, Recorder};
 use crate::observe::probes::{Moment, Observer, Reading};
 use crate::observe::supports::Supports;
 use crate::observe::switches::{Switches, extent, region_x};
@@ -16,6 +18,7 @@ use crate::scene::quantity::{Norm, Quantity, Zone};
 use seam_solver::model::Numbering;
 use seam_solver::simulation::{Energies, Outcome};
 use seam_solver::solve::statics::{self, Solution};
+use seam_solver::stage::{Stage, timed};
 use seam_solver::work::Work;
 use std::collections::BTreeMap;
 use std::sync::Mutex;
@@ -31,6 +34,8 @@ pub struct Solved {
     pub readings: Readings,
     /// How it moved; `None` in statics.
     pub course: Option<Course>,
+    /// What was watched for effects that were left out.
+    pub guard: Guard,
     /// Wall time, in s.
     pub seconds: f64,
 }
@@ -93,6 +98,11 @@ impl Readings {
         }
     }
 
+    /// What a probe read.
+    pub fn reading(&self, probe: &str) -> Option<&Reading> {
+        self.by_probe.get(probe)
+    }
+
     /// All of them, by probe.
     pub fn iter(&self) -> impl Iterator<Item = (&String, &Reading)> {
         self.by_probe.iter()
@@ -123,11 +133,37 @@ impl Tally {
 /// # Errors
 /// A fault of the scene, or what the solver refuses.
 pub fn solve(file: &SceneFile, tally: &Tally) -> Result<Solved> {
+    solve_with(file, tally, &Checkpoints::default(), |_| ())
+}
+
+/// The same with checkpoints of a run in time.
+///
+/// # Errors
+/// As [`solve`]; a checkpoint that cannot be read, written or used.
+pub fn solve_keeping(file: &SceneFile, tally: &Tally, checkpoints: &Checkpoints) -> Result<Solved> {
+    solve_with(file, tally, checkpoints, |_| ())
+}
+
+/// The same with a change of the model between building and solving.
+///
+/// # Errors
+/// As [`solve`].
+pub fn solve_changed(file: &SceneFile, tally: &Tally, change: impl FnOnce(&mut Built)) -> Result<Solved> {
+    solve_with(file, tally, &Checkpoints::default(), change)
+}
+
+fn solve_with(
+    file: &SceneFile,
+    tally: &Tally,
+    checkpoints: &Checkpoints,
+    change: impl FnOnce(&mut Built),
+) -> Result<Solved> {
     let start = Instant::now();
-    let built = model::build(file)?;
+    let mut built = model::build(file)?;
+    change(&mut built);
     let mut solved = match &file.scene.dynamics {
         None => stand(file, built)?,
-        Some(dynamics) => go(file, dynamics, built, start)?,
+        Some(dynamics) => go(file, dynamics, built, (checkpoints, start))?,
     };
     tally.add(solved.solution.work);
     solved.seconds = start.elapsed().as_secs_f64();
@@ -135,17 +171,36 @@ pub fn solve(file: &SceneFile, tally: &Tally) -> Result<Solved> {
 }
 
 fn stand(file: &SceneFile, built: Built) -> Result<Solved> {
-    let solution = statics::solve(&built.model).map_err(|e| file.solver(e))?;
+    let mut solution = statics::solve(&built.model).map_err(|e| file.solver(e))?;
+    file.spoil_solution(&built.model, &mut solution);
     let mut supports = Supports::new(&built);
     supports.follow(&built.model, 0);
     let by_probe = read(file, &built, &solution, &supports, |_| true)?;
     let readings = Readings { by_probe, first_switch: None };
-    Ok(Solved { built, solution, readings, course: None, seconds: 0.0 })
+    let mut guard = Guard::new(file)?;
+    guard.watch(&built.model, &solution.u, [0.0, 1.0]).map_err(|e| file.solver(e))?;
+    Ok(Solved { built, solution, readings, course: None, guard, seconds: 0.0 })
 }
 
-fn go(file: &SceneFile, dynamics: &Dynamics, mut built: Built, start: Instant) -> Result<Solved> {
+fn go(
+    file: &SceneFile,
+    dynamics: &Dynamics,
+    mut built: Built,
+    (checkpoints, start): (&Checkpoints, Instant),
+) -> Result<Solved> {
     let mut recorder = Recorder::new(file, Supports::new(&built));
-    let outcome = time::run(file, dynamics, &mut built, &mut |snapshot| recorder.watch(snapshot))?;
+    let mut guard = Guard::new(file)?;
+    let checkpoint = checkpoints.kept(file)?.map(|kept| {
+        recorder.histories = kept.histories;
+        (guard.largest_rotation, guard.nearest_switch) = kept.guarded;
+        kept.run
+    });
+    let outcome = time::run(file, dynamics, &mut built, checkpoint.as_deref(), &mut |snapshot| {
+        let state = snapshot.state;
+        guard.watch(snapshot.model, &state.u, [state.time, snapshot.factor]).map_err(|e| file.solver(e))?;
+        recorder.watch(snapshot)?;
+        checkpoints.keep(file, (&recorder.histories, &guard), snapshot)
+    })?;
     let Outcome { model, state, energies, switches, notes, work, switch_seconds, .. } = outcome;
     let share_of_time = switch_seconds / start.elapsed().as_secs_f64();
     let switches = Switches { reports: switches, extent: extent(&model), share_of_time };
@@ -153,7 +208,7 @@ fn go(file: &SceneFile, dynamics: &Dynamics, mut built: Built, start: Instant) -
     let solution = Solution {
         numbering: Numbering::new(&built.model),
         u: state.u,
-        reactions: std::mem::take(&mut recorder.reactions),
+        reactions: std::mem::take(&mut recorder.histories.reactions),
         multipliers: Vec::new(),
         energy: energies.strain,
         // Each step has its own.
@@ -171,15 +226,26 @@ fn go(file: &SceneFile, dynamics: &Dynamics, mut built: Built, start: Instant) -
         };
         by_probe.extend(value.map(|value| (name.clone(), Reading::Scalar(value))));
     }
-    let curves = recorder.curves.into_iter().map(|(name, curve)| (name, Reading::Curve(curve)));
+    let Histories { curves, energies, .. } = recorder.histories;
+    let curves = curves.into_iter().map(|(name, curve)| (name, Reading::Curve(curve)));
     by_probe.extend(curves);
-    let course = Course { energies: recorder.energies, switches };
+    let course = Course { energies, switches };
     let readings = Readings { by_probe, first_switch: course.first_switch() };
-    Ok(Solved { built, solution, readings, course: Some(course), seconds: 0.0 })
+    Ok(Solved { built, solution, readings, course: Some(course), guard, seconds: 0.0 })
 }
 
 /// Reads those probes off a state that a state alone can answer.
 fn read(
+    file: &SceneFile,
+    built: &Built,
+    solution: &Solution,
+    supports: &Supports,
+    wanted: impl Fn(&Probe) -> bool,
+) -> Result<BTreeMap<String, Reading>> {
+    timed(Stage::Output, || read_all(file, built, solution, supports, wanted))
+}
+
+fn read_all(
     file: &SceneFile,
     built: &Built,
     solution: &Solution,

@@ -2,18 +2,22 @@
 
 mod budget;
 mod convergence;
-mod cost;
+pub mod cost;
 mod digest;
-mod effects;
+pub mod effects;
 mod evaluate;
 mod family;
-mod inertia;
+mod growth;
+mod kept;
 mod picture;
 mod plots;
 mod quantities;
 mod reference;
 mod richardson;
+mod sketch;
+pub mod stability;
 
+use crate::checkpoint::Checkpoints;
 use crate::error::{Error, Result};
 use crate::file::SceneFile;
 use crate::folder::Folder;
@@ -28,6 +32,8 @@ use seam_solver::solve::statics::Solution;
 use serde_json::Value;
 use std::time::Instant;
 
+pub use kept::Kept;
+
 /// A case that has run, with the fields of its scene for ParaView.
 pub struct Run {
     /// What was measured.
@@ -36,17 +42,17 @@ pub struct Run {
     pub fields: Option<(Model, Solution)>,
 }
 
-/// Runs a scene with all its studies.
+/// Runs a scene with all its studies; checkpoints are of its own run in time.
 ///
 /// # Errors
 /// A fault of the scene or a refusal of the solver, outside of families and cost diagrams, whose
 /// members may fail one by one.
-pub fn run(file: &SceneFile, tier: Tier) -> Result<Run> {
+pub fn run(file: &SceneFile, tier: Tier, checkpoints: &Checkpoints) -> Result<Run> {
     let start = Instant::now();
     let tally = Tally::default();
     let library = Library::default();
     let study = Study { file, tier, tally: &tally, library: &library };
-    let solved = evaluate::solve(file, &tally)?;
+    let solved = evaluate::solve_keeping(file, &tally, checkpoints)?;
     let mut result = head(file, tier);
     result.effects = effects::used(file, &solved);
     result.notes = [solved.built.notes.clone(), solved.solution.notes.clone()].concat();
@@ -57,12 +63,30 @@ pub fn run(file: &SceneFile, tier: Tier) -> Result<Run> {
     result.families = family::all(&study)?;
     result.budgets = budget::all(&study)?;
     result.costs = cost::all(&study)?;
+    result.growths = growth::all(&study)?;
+    result.ablations = effects::declared(&study)?;
     result.pictures = vec![picture::deformed(file, &solved)];
     result.switches = solved.course.as_ref().map_or_else(Vec::new, |course| course.switches.records());
     result.work = tally.total();
     result.seconds = start.elapsed().as_secs_f64();
     let Solved { built, solution, .. } = solved;
     Ok(Run { result, fields: Some((built.model, solution)) })
+}
+
+/// Who looks on while a study runs.
+pub trait Onlooker {
+    /// A setting begins.
+    fn begin(&self, what: &str);
+    /// It is done, and how.
+    fn done(&self, what: &str, how: &str);
+}
+
+/// Builds, solves and reads a scene once.
+///
+/// # Errors
+/// A fault of the scene, or what the solver refuses.
+pub fn once(file: &SceneFile) -> Result<()> {
+    evaluate::solve(file, &Tally::default()).map(|_| ())
 }
 
 /// What every study needs.
@@ -117,6 +141,7 @@ pub fn head(file: &SceneFile, tier: Tier) -> CaseResult {
         scene_hash: file.hash(),
         command: command(file, tier),
         parameters: scene.parameters.iter().map(parameter).collect(),
+        expected_failures: scene.expected_failures.clone(),
         ..CaseResult::default()
     }
 }

@@ -1,6 +1,7 @@
 //! The bodies drawn from the model, undeformed and deformed.
 
 use super::evaluate::Solved;
+use super::sketch;
 use crate::file::SceneFile;
 use crate::result::Picture;
 use seam_solver::fem::mesh::Mesh;
@@ -48,6 +49,8 @@ pub fn deformed(file: &SceneFile, solved: &Solved) -> Picture {
         }
     }
     add_conditions(solved, &mut picture);
+    picture.bodies = sketch::bodies(solved);
+    picture.ties = sketch::ties(file, solved);
     picture
 }
 
@@ -57,7 +60,7 @@ fn round_down(x: f64) -> f64 {
     [5.0, 2.0].into_iter().map(|d| d * power).find(|v| *v <= x).unwrap_or(power)
 }
 
-fn flat(x: Vec3) -> [f64; 2] {
+pub(super) fn flat(x: Vec3) -> [f64; 2] {
     [x.x, x.y]
 }
 

@@ -4,7 +4,7 @@ use super::Study;
 use super::evaluate::{Course, Solved, de_intervals};
 use crate::error::Result;
 use crate::observe::curve::{Axis, Curve};
-use crate::result::{Plot, Role, Series};
+use crate::result::{Plot, ReferenceKind, Role, Series};
 use crate::scene::probe::Probe;
 use seam_solver::simulation::Energies;
 use seam_solver::space::Vec3;
@@ -41,10 +41,19 @@ fn plot(study: &Study, solved: &Solved, name: &str, (probe, curve): (&Probe, &Cu
     };
     let own = if study.file.scene.switches.is_empty() { "coupled" } else { "switched" };
     let mut all = vec![series(own, Role::Model, curve)];
+    let mut against = ReferenceKind::Exact;
     if study.file.scene.reference.is_some() && probe.read.has_counterpart() {
         let reference = study.library.of(study.file, study.tally)?;
         if let Some((curve, _)) = reference.curves.get(name) {
             all.push(series("reference", Role::Reference, curve));
+            against = ReferenceKind::OwnFem;
+        }
+    }
+    for (legend, names) in &probe.beside {
+        let file = study.file.with(&study.variants(names))?;
+        let other = study.library.own_run(&file, legend, study.tally)?;
+        if let Some((curve, _)) = other.curves.get(name) {
+            all.push(series(legend, Role::Model, curve));
         }
     }
     if let Some(exact) = probe.exact.first() {
@@ -67,6 +76,7 @@ fn plot(study: &Study, solved: &Solved, name: &str, (probe, curve): (&Probe, &Cu
         y_label: format!("{} ({})", title.to_lowercase(), probe.read.unit()),
         log: [false; 2],
         band: probe.band,
+        against,
         shaded: shaded(study, solved, curve),
         series: all,
     })

@@ -52,4 +52,12 @@ impl Stepper for Central {
     fn work(&self) -> Work {
         self.0.work()
     }
+
+    fn freeze(&self) -> Vec<u8> {
+        self.0.freeze()
+    }
+
+    fn thaw(&mut self, bytes: &[u8]) -> Result<()> {
+        self.0.thaw(bytes)
+    }
 }

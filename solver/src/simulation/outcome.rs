@@ -65,6 +65,14 @@ pub struct Snapshot<'a> {
     pub reactions: &'a [f64],
     /// Switches so far.
     pub switches: usize,
+    pub(super) freeze: &'a dyn Fn() -> Vec<u8>,
+}
+
+impl Snapshot<'_> {
+    /// What [`super::resume`] needs to go on from here, bit by bit.
+    pub fn checkpoint(&self) -> Vec<u8> {
+        (self.freeze)()
+    }
 }
 
 /// The end of a run.

@@ -9,9 +9,10 @@ use crate::error::Result;
 use crate::model::{Model, Part};
 use crate::transfer::report::SwitchReport;
 use crate::work::Work;
+use serde::{Deserialize, Serialize};
 
 /// What a run leaves behind.
-#[derive(Default)]
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
 pub(super) struct Record {
     /// Counted work.
     pub work: Work,

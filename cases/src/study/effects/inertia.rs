@@ -1,0 +1,99 @@
+//! Whether inertia is simulated, and whether it may be left out.
+
+use super::super::evaluate::{Course, Solved};
+use super::{off, on, watched};
+use crate::file::SceneFile;
+use crate::model;
+use crate::result::{EffectUse, Indicator};
+use crate::scene::dynamics::Stepping;
+use seam_solver::dynamics::load::LoadFactor;
+use seam_solver::dynamics::modes;
+use seam_solver::dynamics::semidiscrete::Semidiscrete;
+use seam_solver::work::Work;
+use std::f64::consts::PI;
+
+/// Sway about the equilibria beyond this share of the largest deflection shows: slower loads, or inertia.
+const LARGE_SWAY: f64 = 0.05;
+
+/// Inertia, on or off.
+pub fn effect(file: &SceneFile, solved: &Solved) -> EffectUse {
+    let name = "inertia";
+    let (Some(dynamics), Some(course)) = (&file.scene.dynamics, &solved.course) else {
+        return off(name, "statics: loads are applied slowly");
+    };
+    if dynamics.stepping != Stepping::QuasiStatic {
+        let why = match kinetic_share(course) {
+            Some(share) => {
+                format!("the scene asks for it; the kinetic energy gets to {share:.1e} of the strain energy")
+            }
+            None => "the scene asks for it".to_owned(),
+        };
+        return on(name, why, solved.solution.work.steps);
+    }
+    let end = dynamics.end_s.value(&file.values, "").ok();
+    let sway = end.zip(model::time::factor(file, dynamics).ok()).zip(period(file));
+    match sway.map(|((end, factor), period)| (sway_of(&factor, end, period), period)) {
+        Some((value, period)) => {
+            let about = format!(
+                "the sway that inertia would add to the largest deflection, the first period being {period:.2e} s,"
+            );
+            watched(name, Indicator { about, value, limit: LARGE_SWAY })
+        }
+        None => {
+            off(name, "the scene asks for equilibria; there is no first period to compare the loads with")
+        }
+    }
+}
+
+/// Largest kinetic over largest strain energy; `None` if nothing was ever strained.
+fn kinetic_share(course: &Course) -> Option<f64> {
+    let largest = |of: fn(&seam_solver::simulation::Energies) -> f64| {
+        course.energies.iter().map(|(_, e)| of(e)).fold(0.0, f64::max)
+    };
+    let (kinetic, strain) = (largest(|e| e.kinetic), largest(|e| e.strain));
+    (strain > 0.0).then_some(kinetic / strain)
+}
+
+/// First period of the model as it starts, in s; `None` for mechanisms and the like.
+pub fn period(file: &SceneFile) -> Option<f64> {
+    let model = model::build(file).ok()?.model;
+    let mut work = Work::default();
+    let system = Semidiscrete::new(&model, &mut work).ok()?;
+    let mode = modes::lowest(&model, &system, 1, &mut work).ok()?;
+    mode.first().map(|mode| 2.0 * PI / mode.omega)
+}
+
+/// Bound on the sway of one mode of period T about its equilibria, over the largest load factor: every jump `Δf` of the
+/// factor leaves an oscillation of that amplitude, every kink one of `|Δḟ| T/2π` (Duhamel's integral).
+fn sway_of(factor: &LoadFactor, end: f64, period: f64) -> f64 {
+    let points = match factor {
+        LoadFactor::Sudden => vec![(0.0, 1.0)],
+        LoadFactor::Ramp { start_s, rise_s } => vec![(*start_s, 0.0), (start_s + rise_s, 1.0)],
+        LoadFactor::Table(points) => points.clone(),
+    };
+    let mut slopes = vec![0.0];
+    slopes.extend(points.windows(2).map(|w| (w[1].1 - w[0].1) / (w[1].0 - w[0].0)));
+    slopes.push(0.0);
+    let kinks = slopes.windows(2).zip(&points).filter(|(_, point)| point.0 < end);
+    let kinks: f64 = kinks.map(|(s, _)| (s[1] - s[0]).abs()).sum();
+    let reached = points.iter().filter(|p| p.0 <= end).map(|p| p.1.abs());
+    let largest = reached.fold(factor.at(end).abs(), f64::max);
+    if largest > 0.0 { (factor.at(0.0).abs() + kinks * period / (2.0 * PI)) / largest } else { 0.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A ramp of n periods sways by |sin nπ|/nπ after its end (Biggs 1964): the bound is its envelope 1/nπ.
+    #[test]
+    fn a_ramp_sways_within_its_envelope() {
+        let ramp = LoadFactor::Ramp { start_s: 0.0, rise_s: 3.5 };
+        assert!((sway_of(&ramp, 9.0, 1.0) - 1.0 / (3.5 * PI)).abs() < 1e-15);
+        let table = LoadFactor::Table(vec![(0.0, 0.0), (3.5, 1.0)]);
+        assert_eq!(sway_of(&ramp, 9.0, 1.0), sway_of(&table, 9.0, 1.0));
+        assert_eq!(sway_of(&LoadFactor::Sudden, 9.0, 1.0), 1.0);
+        // The run ends where the ramp ends: its upper kink never sways.
+        assert!((sway_of(&ramp, 3.5, 1.0) - 0.5 / (3.5 * PI)).abs() < 1e-15);
+    }
+}
