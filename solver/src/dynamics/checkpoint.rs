@@ -19,8 +19,12 @@ const HASH: usize = blake3::OUT_LEN;
 /// Writes the state of a run of `model`.
 ///
 /// # Errors
-/// A file that cannot be written.
+/// A file that cannot be written; a run that breaks bonds, whose laws are not kept in it.
 pub fn write(path: &Path, model: &Model, run: &Explicit) -> Result<()> {
+    if run.breaking().is_some() {
+        let message = "a run that breaks bonds has no checkpoints; run it through".to_owned();
+        return Err(Error::File { file: path.display().to_string(), line: None, message });
+    }
     let Motion { start, step, u, v, done, initial } = &run.motion;
     let mut bytes = [MAGIC, &fingerprint(model, run.options())].concat();
     let mut put = |x: u64| bytes.extend(x.to_le_bytes());
@@ -72,7 +76,7 @@ pub fn resume(path: &Path, model: &Model, options: Options) -> Result<Explicit> 
         [number()?, number()?, number()?, number()?, number()?];
     let mut vector = || (0..n).map(|_| number()).collect::<Result<Vec<f64>>>();
     let (u, v) = (vector()?, vector()?);
-    let done = WorkDone { external, damping, interface };
+    let done = WorkDone { external, damping, interface, ..WorkDone::default() };
     let mut run = Explicit::prepare(model, options, Motion { start, step, u, v, done, initial })?;
     run.work = work;
     let mut orientation = || -> Result<_> {

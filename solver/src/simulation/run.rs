@@ -11,7 +11,9 @@ use super::segment::{Course, Ending, Stepper};
 use super::switching::Rules;
 use super::two_rates::TwoRates;
 use super::{check, start};
+use crate::contact::ContactEnergy;
 use crate::dynamics::State;
+use crate::dynamics::breaking::Breaking;
 use crate::error::Error;
 use crate::model::{Model, Part};
 use std::time::Instant;
@@ -53,13 +55,20 @@ pub fn run<E: From<Error>>(
                     course.merged
                 ));
             }
-            let Record { work, notes, switches, switch_seconds } = record;
+            let Record { work, notes, switches, switch_seconds, breaking } = record;
+            for (part, left) in breaking.iter().flat_map(Breaking::networks) {
+                if let Part::Discrete { network, .. } = &mut model.parts[part] {
+                    network.bonds.weight.clone_from(&left.bonds.weight);
+                }
+            }
             return Ok(Outcome {
                 model,
                 state: look.state,
                 energies,
                 worst_closure: course.worst_closure,
                 switches,
+                losses: breaking.as_ref().map_or_else(Vec::new, |b| b.losses().to_vec()),
+                contact: breaking.as_ref().map_or_else(ContactEnergy::default, Breaking::contact_energy),
                 notes,
                 work,
                 switch_seconds,
@@ -82,6 +91,7 @@ fn segment<E: From<Error>>(
     let mut follow = |stepper: &mut dyn Stepper, clock: &Clock, record: &mut Record| {
         let ending = course.follow(model, stepper, clock, watch);
         record.work += stepper.work();
+        record.breaking = stepper.breaking().cloned();
         ending
     };
     match stepping_of(model, plan) {

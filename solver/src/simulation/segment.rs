@@ -5,6 +5,7 @@ use super::outcome::{Energies, Snapshot};
 use super::plan::Plan;
 use super::switching::{Job, Rules};
 use crate::dynamics::State;
+use crate::dynamics::breaking::Breaking;
 use crate::dynamics::ledger::WorkDone;
 use crate::error::{Error, Result};
 use crate::model::Model;
@@ -20,6 +21,10 @@ pub(super) trait Stepper {
     fn look(&mut self) -> Result<Look>;
     /// What was done so far.
     fn work(&self) -> Work;
+    /// Bonds that have broken; `None` where nothing breaks.
+    fn breaking(&self) -> Option<&Breaking> {
+        None
+    }
 }
 
 /// A moment of a stepper.
@@ -101,7 +106,9 @@ impl<'a> Course<'a> {
                 }
             }
             if self.next_output <= self.plan.outputs && clock.nearest(self.output_time()) <= k {
-                self.show(model, &stepper.look()?, watch)?;
+                let look = stepper.look()?;
+                let losses = stepper.breaking().map_or(0, |b| b.losses().len());
+                self.show(model, &look, losses, watch)?;
                 self.next_output += 1;
                 while self.next_output <= self.plan.outputs && clock.nearest(self.output_time()) <= k {
                     self.next_output += 1;
@@ -139,6 +146,8 @@ impl<'a> Course<'a> {
         self.base.external += done.external;
         self.base.damping += done.damping;
         self.base.interface += done.interface;
+        self.base.contact += done.contact;
+        self.base.fracture += done.fracture;
     }
 
     fn energies(&self, look: &Look) -> Energies {
@@ -148,6 +157,8 @@ impl<'a> Course<'a> {
             external: self.base.external + look.done.external,
             damping: self.base.damping + look.done.damping,
             interface: self.base.interface + look.done.interface,
+            contact: self.base.contact + look.done.contact,
+            fracture: self.base.fracture + look.done.fracture,
             ..self.base
         }
     }
@@ -163,6 +174,7 @@ impl<'a> Course<'a> {
         &mut self,
         model: &Model,
         look: &Look,
+        losses: usize,
         watch: &mut dyn FnMut(&Snapshot) -> std::result::Result<(), E>,
     ) -> std::result::Result<(), E> {
         let energies = self.energies(look);
@@ -175,6 +187,7 @@ impl<'a> Course<'a> {
             gap: look.gap,
             reactions: &look.reactions,
             switches: self.switches,
+            losses,
         })
     }
 }
