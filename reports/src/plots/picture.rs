@@ -41,11 +41,13 @@ pub fn picture(p: &Picture) -> Option<Figure> {
     let scale = (WIDTH - 2.0 * MARGIN) / (x1 - x0).max(y1 - y0).max(f64::MIN_POSITIVE);
     let view = View { scale, left: x0, top: y1 };
     let height = scale * (y1 - y0) + 2.0 * MARGIN;
+    let broken =
+        if p.broken.is_empty() { String::new() } else { format!(", {} of them broken", p.broken.len()) };
     let description = format!(
-        "{} elements, {} particles and {} bonds; displacements enlarged {} times",
+        "{} elements, {} particles and {} bonds{broken}; displacements enlarged {} times",
         p.elements.len(),
         p.particles.len(),
-        p.bonds.len(),
+        p.bonds.len() + p.broken.len(),
         significant(p.scale, 3)
     );
     let mut svg = open_svg(WIDTH, height.ceil(), &p.title, &description);
@@ -55,6 +57,7 @@ pub fn picture(p: &Picture) -> Option<Figure> {
     svg.push_str(&circles(&view, "shape-particle", particles, &p.radii));
     svg.push_str(&path("shape-bond", &bonds(&view, particles, &p.bonds)));
     svg.push_str(&path("shape-bond", &bonds(&view, particles, &p.bonds)));
+    svg.push_str(&path("shape-broken", &bonds(&view, particles, &p.broken)));
     svg.push_str(&path(
         "shape-support",
         &thinned(&p.supports).map(|at| support(&view, *at)).collect::<String>(),
@@ -141,6 +144,9 @@ fn legend(p: &Picture) -> Vec<LegendEntry> {
     }
     if !p.bonds.is_empty() {
         legend.push(entry("shape-bond", "line", "bonds"));
+    }
+    if !p.broken.is_empty() {
+        legend.push(entry("shape-broken", "line", "broken bonds"));
     }
     if !p.supports.is_empty() {
         legend.push(entry("shape-support", "area", "held"));
