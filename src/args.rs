@@ -37,6 +37,9 @@ pub enum Verb {
     Show(Show),
     /// Run cases of the catalogue or scene files
     Run(Run),
+    /// Study cases beyond their run: what accuracy costs, which effects they call for
+    #[command(subcommand)]
+    Study(Study),
     /// Judge the results of a run: table, results.json, exit code
     Check(Check),
     /// Write the report page from the results of a run
@@ -131,6 +134,56 @@ pub struct Run {
     pub running: Running,
 }
 
+/// `seam study`
+#[derive(Debug, Subcommand)]
+pub enum Study {
+    /// Error against counted work and seconds: methods, elements, skins, sections, schemes, each at several levels
+    Cost(Cost),
+    /// Each effect on and off: what it changes, what it costs, and whether the scene calls for it
+    Effects(Studied),
+    /// One run of a scene and the memory it takes
+    #[command(hide = true)]
+    Alone(Alone),
+}
+
+/// `seam study cost`
+#[derive(Debug, Args)]
+pub struct Cost {
+    /// What is studied, and how
+    #[command(flatten)]
+    pub studied: Studied,
+    /// Leave out levels that may take longer than this, in seconds
+    #[arg(long, value_name = "SECONDS", default_value_t = 120.0)]
+    pub longest: f64,
+}
+
+/// `seam study alone`
+#[derive(Debug, Args)]
+pub struct Alone {
+    /// Id of the catalogue or path of a scene file
+    pub case: String,
+    /// Set a key of the scene
+    #[arg(long = "set")]
+    pub overrides: Vec<String>,
+}
+
+/// What a study is of.
+#[derive(Debug, Args)]
+pub struct Studied {
+    /// Ids of the catalogue or paths of scene files
+    #[arg(value_name = "ID|SCENE.toml", required = true)]
+    pub cases: Vec<String>,
+    /// Set a key of the scene, e.g. --set parameters.rows=16
+    #[arg(long = "set", value_name = "KEY.PATH=VALUE")]
+    pub overrides: Vec<String>,
+    /// Folder for results; a study lies beside the run of its case
+    #[arg(long, value_name = "DIR", default_value = "out")]
+    pub out: PathBuf,
+    /// How the settings are run
+    #[command(flatten)]
+    pub running: Running,
+}
+
 /// `seam export`
 #[derive(Debug, Args)]
 pub struct Export {
@@ -179,6 +232,9 @@ pub struct Report {
     /// Folder with the results of a run
     #[arg(long, value_name = "DIR", default_value = "out")]
     pub from: PathBuf,
+    /// Write the validation document too: the figures as Markdown, without machine and timings
+    #[arg(long, value_name = "FILE")]
+    pub markdown: Option<PathBuf>,
     /// What is judged beside
     #[command(flatten)]
     pub references: ReferencesFolder,

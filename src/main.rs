@@ -1,6 +1,7 @@
 //! The `seam` command: words in, exit code out. All else is in the libraries.
 
 mod args;
+mod memory;
 mod message;
 mod progress;
 mod provenance;
@@ -21,6 +22,7 @@ fn main() -> ExitCode {
         Verb::List(words) => verbs::list(&words),
         Verb::Show(words) => verbs::show(&words),
         Verb::Run(words) => verbs::run(&words),
+        Verb::Study(words) => verbs::study(&words),
         Verb::Check(words) => verbs::check(&words),
         Verb::Report(words) => verbs::report(&words),
         Verb::Export(words) => verbs::export(&words),

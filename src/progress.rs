@@ -1,6 +1,7 @@
 //! What a user sees while cases run: a bar on a terminal, plain lines in a pipe, nothing when quiet.
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use seam_cases::study::Onlooker;
 use std::io::IsTerminal;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -57,5 +58,16 @@ impl Progress {
         if let Progress::Bar(bar) = self {
             bar.finish_and_clear();
         }
+    }
+}
+
+/// The settings of a study are shown as the cases of a run are.
+impl Onlooker for Progress {
+    fn begin(&self, what: &str) {
+        Progress::begin(self, what);
+    }
+
+    fn done(&self, what: &str, how: &str) {
+        Progress::done(self, what, how);
     }
 }

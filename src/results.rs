@@ -7,7 +7,7 @@ use seam_reports::judge::judge;
 use seam_reports::record::Recorded;
 use seam_reports::results::Results;
 use std::collections::BTreeMap;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// There is nothing that could be judged.
 #[derive(Debug)]
@@ -36,10 +36,48 @@ pub fn load(from: &Path) -> Result<Vec<CaseResult>> {
             cases.push(read(&file)?);
         }
     }
+    for study in studies(from)? {
+        take_in(&mut cases, study);
+    }
     if cases.is_empty() {
         return Err(Unmeasured(format!("{}: no results; {}", from.display(), run_first(from))).into());
     }
     Ok(cases)
+}
+
+/// What studies found, by kind and case.
+fn studies(from: &Path) -> Result<Vec<CaseResult>> {
+    let mut found = Vec::new();
+    for kind in sorted(&from.join(seam_cases::write::STUDIES))? {
+        let files = sorted(&kind)?;
+        for file in files.iter().filter(|file| file.extension().is_some_and(|e| e == "json")) {
+            found.push(read(file)?);
+        }
+    }
+    Ok(found)
+}
+
+/// What a folder holds, by name; nothing if it is not there.
+fn sorted(folder: &Path) -> Result<Vec<PathBuf>> {
+    if !folder.is_dir() {
+        return Ok(Vec::new());
+    }
+    let entries = std::fs::read_dir(folder)?.collect::<std::io::Result<Vec<_>>>()?;
+    let mut paths: Vec<PathBuf> = entries.into_iter().map(|entry| entry.path()).collect();
+    paths.sort();
+    Ok(paths)
+}
+
+/// A study belongs to the run of its case; without one it stands for itself.
+fn take_in(cases: &mut Vec<CaseResult>, study: CaseResult) {
+    match cases.iter_mut().find(|case| case.id == study.id) {
+        Some(case) if case.scene_hash == study.scene_hash => case.absorb(study),
+        Some(case) => case.notes.push(format!(
+            "a study of another version of this scene is not shown: {}; run it again",
+            study.command
+        )),
+        None => cases.push(study),
+    }
 }
 
 fn run_first(folder: &Path) -> String {

@@ -52,6 +52,7 @@ impl SceneFile {
         };
         let mut scene = source.parse()?;
         scene.drop_disabled();
+        scene.apply_effects().map_err(|fault| source.error(fault))?;
         let values = scene.values().map_err(|fault| source.error(fault))?;
         check::check(&scene, &values).map_err(|fault| source.error(fault))?;
         Ok(Self { scene, values, folder, source })
@@ -91,6 +92,11 @@ impl SceneFile {
     /// File as the user named it.
     pub fn name(&self) -> &str {
         &self.source.file
+    }
+
+    /// Whether it was read from disk, and not from the catalogue.
+    pub fn on_disk(&self) -> bool {
+        matches!(self.folder, Folder::Disk(_))
     }
 
     /// Overrides that were applied, as `key=value`.

@@ -8,6 +8,8 @@ pub mod export;
 pub mod expression;
 pub mod file;
 pub mod folder;
+pub mod map;
+pub mod margin;
 pub mod model;
 pub mod names;
 pub mod observe;

@@ -3,6 +3,13 @@
 //! A [`CaseResult`] holds what was *measured* and what it is to be compared *with*; it holds no
 //! judgement. `result.json` in the folder of a case is this type.
 
+mod cost;
+mod effects;
+
+use crate::map::StabilityMap;
+use crate::margin::Margin;
+pub use cost::{CostDiagram, CostPoint, CostSetting, Growth};
+pub use effects::{Ablation, AblationChange, AblationRun, EffectUse, Expected, Indicator};
 use schemars::JsonSchema;
 use seam_solver::work::Work;
 use serde::{Deserialize, Serialize};
@@ -48,11 +55,23 @@ pub struct CaseResult {
     pub budgets: Vec<Budget>,
     /// Error against cost.
     pub costs: Vec<CostDiagram>,
+    /// How cost grows with size.
+    #[serde(default)]
+    pub growths: Vec<Growth>,
+    /// Effects on and off.
+    #[serde(default)]
+    pub ablations: Vec<Ablation>,
     /// Bodies drawn from the model.
     pub pictures: Vec<Picture>,
     /// Elements that became particles on the way, in order.
     #[serde(default)]
     pub switches: Vec<SwitchRecord>,
+    /// How far the hard cases are from breaking.
+    #[serde(default)]
+    pub margins: Vec<Margin>,
+    /// Where stability ends over two parameters.
+    #[serde(default)]
+    pub maps: Vec<StabilityMap>,
     /// Counted work of all runs of the case.
     pub work: Work,
     /// Wall time of the case, in seconds. Not deterministic.
@@ -61,17 +80,29 @@ pub struct CaseResult {
     pub notes: Vec<String>,
 }
 
-/// One effect of a scene.
-#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct EffectUse {
-    /// Name as in the scene file, e.g. `rotation-coupling`.
-    pub name: String,
-    /// Whether it was simulated.
-    pub on: bool,
-    /// Why it was switched on or left out.
-    pub why: String,
-    /// Work done for it alone; exactly zero when off.
-    pub counter: u64,
+impl CaseResult {
+    /// Takes in what a study of the same scene found: what has an id takes the place of the run's own.
+    pub fn absorb(&mut self, study: CaseResult) {
+        replace(&mut self.quantities, study.quantities, |q| &q.id);
+        replace(&mut self.curves, study.curves, |c| &c.id);
+        replace(&mut self.costs, study.costs, |c| &c.id);
+        replace(&mut self.growths, study.growths, |g| &g.id);
+        replace(&mut self.ablations, study.ablations, |a| &a.id);
+        replace(&mut self.pictures, study.pictures, |p| &p.id);
+        replace(&mut self.margins, study.margins, |m| &m.id);
+        replace(&mut self.maps, study.maps, |m| &m.id);
+        self.notes.extend(study.notes);
+    }
+}
+
+/// Puts each of `new` in the place of the one with its id, or at the end.
+fn replace<T>(all: &mut Vec<T>, new: Vec<T>, id: impl Fn(&T) -> &String) {
+    for one in new {
+        match all.iter().position(|old| id(old) == id(&one)) {
+            Some(place) => all[place] = one,
+            None => all.push(one),
+        }
+    }
 }
 
 /// One parameter of a scene.
@@ -197,6 +228,9 @@ pub struct Plot {
     pub log: [bool; 2],
     /// Relative half width of the tolerance band around the first reference series.
     pub band: Option<f64>,
+    /// What the first reference series is.
+    #[serde(default)]
+    pub against: ReferenceKind,
     /// Intervals of x to shade, e.g. the DE part.
     pub shaded: Vec<[f64; 2]>,
     /// The series.
@@ -321,43 +355,6 @@ pub struct BudgetPart {
     pub scatter: Option<f64>,
 }
 
-/// Error against cost for several settings.
-#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-pub struct CostDiagram {
-    /// Unique within the case.
-    pub id: String,
-    /// Caption.
-    pub title: String,
-    /// What the error is of.
-    pub error_label: String,
-    /// One entry per setting.
-    pub settings: Vec<CostSetting>,
-}
-
-/// One setting at several resolutions.
-#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-pub struct CostSetting {
-    /// Legend.
-    pub name: String,
-    /// Points, coarse to fine.
-    pub points: Vec<CostPoint>,
-}
-
-/// One run of a cost diagram.
-#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-pub struct CostPoint {
-    /// Resolution, in words, e.g. `8 rows`.
-    pub level: String,
-    /// Error as a fraction; `None` if the run failed.
-    pub error: Option<f64>,
-    /// Number of particles.
-    pub particles: usize,
-    /// Counted work.
-    pub work: Work,
-    /// Median wall seconds. Not deterministic.
-    pub seconds: f64,
-}
-
 /// A drawing of the bodies, undeformed and deformed, in the x–y plane.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct Picture {
@@ -386,4 +383,32 @@ pub struct Picture {
     pub supports: Vec<[f64; 2]>,
     /// Loads as start point and direction (unit vector).
     pub loads: Vec<[[f64; 2]; 2]>,
+    /// The bodies, for their names and dimensions.
+    #[serde(default)]
+    pub bodies: Vec<BodyOutline>,
+    /// The coupled faces.
+    #[serde(default)]
+    pub ties: Vec<TiedFace>,
+}
+
+/// A body of a picture.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct BodyOutline {
+    /// Name as in the scene file.
+    pub name: String,
+    /// `FE` or `DE`.
+    pub method: String,
+    /// Lower left and upper right corner of the box around its nodes or particles, undeformed, in metres.
+    pub extent: [[f64; 2]; 2],
+}
+
+/// A coupled face of a picture.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct TiedFace {
+    /// Name of the tie as in the scene file.
+    pub name: String,
+    /// How it is tied, e.g. `mortar`.
+    pub method: String,
+    /// Nodes or particles of its first face, in order along it, undeformed, in metres.
+    pub line: Vec<[f64; 2]>,
 }

@@ -6,11 +6,15 @@
 use crate::error::{Error, Result};
 use crate::result::{CaseResult, Plot};
 use crate::study::Run;
+use serde::Serialize;
 use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Name of the file that holds the result.
 pub const RESULT: &str = "result.json";
+
+/// Name of the folder of the studies: a folder per kind, a file per case.
+pub const STUDIES: &str = "studies";
 
 /// Writes a case into `out/<id>` and returns that folder. Fields are written if the run has them.
 ///
@@ -71,6 +75,36 @@ fn csv(plot: &Plot) -> String {
         }
     }
     text
+}
+
+/// Where the study of a case lies in the folder of results: apart from the folder of the case, which a run replaces whole.
+pub fn study_path(out: &Path, kind: &str, id: &str) -> PathBuf {
+    out.join(STUDIES).join(kind).join(format!("{id}.json"))
+}
+
+/// Writes what a study of this kind found, whole or not at all, and returns where.
+///
+/// # Errors
+/// Anything that cannot be written.
+pub fn write_study(out: &Path, kind: &str, result: &CaseResult) -> Result<PathBuf> {
+    let path = study_path(out, kind, &result.id);
+    write_whole(&path, result)?;
+    Ok(path)
+}
+
+/// Writes a value as JSON by way of a file beside it, so that a reader never sees half of it.
+pub(crate) fn write_whole(path: &Path, value: &impl Serialize) -> Result<()> {
+    let fail = |source| Error::File { path: path.display().to_string(), source };
+    let json = serde_json::to_string_pretty(value).map_err(|e| fail(std::io::Error::other(e)))?;
+    if let Some(folder) = path.parent() {
+        fs::create_dir_all(folder).map_err(fail)?;
+    }
+    let beside = path.with_added_extension(format!("{}.tmp", std::process::id()));
+    fs::write(&beside, json + "\n").and_then(|()| fs::rename(&beside, path)).map_err(|e| {
+        // Best effort: the error worth telling is the first one.
+        let _ = fs::remove_file(&beside);
+        fail(e)
+    })
 }
 
 /// Reads the result of one case; `folder` is `out/<id>`.

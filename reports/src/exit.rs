@@ -48,17 +48,29 @@ impl Results {
 impl CaseJudgement {
     /// Whether something could not be measured, or nothing was compared at all.
     pub fn unmeasured(&self) -> bool {
-        let nothing = self.quantities.is_empty() && self.claims.is_empty() && self.curves.is_empty();
+        let nothing = self.quantities.is_empty()
+            && self.claims.is_empty()
+            && self.curves.is_empty()
+            && self.margins.is_empty()
+            && self.costs.is_empty()
+            && self.ablations.is_empty();
         nothing
             || self.quantities.iter().any(|q| q.value.is_none() || q.verdict == Some(Verdict::Undetermined))
             || self.curves.iter().any(|c| c.verdict == Verdict::Undetermined)
+            || self.margins.iter().any(|m| m.verdict == Verdict::Undetermined)
             || self.claims.iter().any(|c| c.unmeasured.is_some())
+            || self.ablations.iter().any(|a| a.verdict == Some(Verdict::Undetermined))
+            || self.timed.iter().any(|t| t.seconds_verdict == Verdict::Undetermined)
     }
 
-    /// Whether a number, a curve or a claim failed.
+    /// Whether a number, a curve, a margin, a claim or an ablation failed, or the result is not trusted.
     pub fn failed(&self) -> bool {
-        self.quantities.iter().any(|q| q.verdict == Some(Verdict::Fail))
+        !self.trusted
+            || self.ablations.iter().any(|a| a.verdict == Some(Verdict::Fail))
+            || self.timed.iter().any(|t| t.seconds_verdict == Verdict::Fail)
+            || self.quantities.iter().any(|q| q.verdict == Some(Verdict::Fail))
             || self.curves.iter().any(|c| c.verdict == Verdict::Fail)
+            || self.margins.iter().any(|m| m.verdict == Verdict::Fail)
             || self.claims.iter().any(ClaimResult::failed)
     }
 

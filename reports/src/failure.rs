@@ -1,9 +1,13 @@
 //! Failures in words, the same for every view.
 
+use crate::ablation::AblationJudgement;
 use crate::format::{self, percent, share, with_unit};
+use crate::growth::TimedGrowth;
+use crate::margins::MarginResult;
 use crate::record::RecordState;
 use crate::results::{CaseJudgement, ClaimResult, CurveResult, QuantityResult, Results};
 use crate::verdict::{ClaimVerdict, Verdict};
+use seam_cases::result::{EffectUse, Expected};
 
 /// One thing that keeps the gate from being green.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -23,6 +27,7 @@ pub struct Failure {
 }
 
 const FAILED: &str = "FAILED";
+const NOT_TRUSTED: &str = "NOT TRUSTED";
 const NOT_MEASURED: &str = "NOT MEASURED";
 const COSTS_MORE: &str = "COSTS MORE";
 
@@ -35,7 +40,13 @@ fn of_case(case: &CaseJudgement) -> Vec<Failure> {
     let quantities = case.quantities.iter().filter_map(|q| of_quantity(case, q));
     let curves = case.curves.iter().filter_map(|c| of_curve(case, c));
     let claims = case.claims.iter().filter_map(|c| of_claim(case, c));
-    let all: Vec<Failure> = quantities.chain(curves).chain(claims).chain(of_cost(case)).collect();
+    let margins = case.margins.iter().filter_map(|m| of_margin(case, m));
+    let effects = case.effects.iter().filter_map(|e| of_effect(case, e));
+    let ablations = case.ablations.iter().filter_map(|a| of_ablation(case, a));
+    let timed = case.timed.iter().filter_map(|t| of_timed(case, t));
+    let studies = margins.chain(effects).chain(ablations).chain(timed);
+    let all: Vec<Failure> =
+        quantities.chain(curves).chain(claims).chain(studies).chain(of_cost(case)).collect();
     if all.is_empty() && case.unmeasured() {
         return vec![of_empty(case)];
     }
@@ -102,6 +113,32 @@ fn of_curve(case: &CaseJudgement, c: &CurveResult) -> Option<Failure> {
     })
 }
 
+fn of_margin(case: &CaseJudgement, m: &MarginResult) -> Option<Failure> {
+    let class = match m.verdict {
+        Verdict::Pass => return None,
+        Verdict::Fail => FAILED,
+        Verdict::Undetermined => NOT_MEASURED,
+    };
+    let (bound, meaning) = match m.recorded {
+        _ if m.value.is_none() => ("a finite margin".to_owned(), "nothing was compared".to_owned()),
+        Some(recorded) if !m.too_small() => (
+            format!("{} ± {}, recorded", with_unit(recorded, &m.unit), percent(m.tolerance)),
+            "the margin has changed: find out why before it is accepted".to_owned(),
+        ),
+        _ => (
+            format!("{} has to pass: {}", with_unit(m.needed, &m.unit), m.criterion),
+            "the hard case does not pass where it has to".to_owned(),
+        ),
+    };
+    let value = m.value.map_or("no finite number".to_owned(), |v| with_unit(v, &m.unit));
+    Some(Failure {
+        measured: format!("{value} ({}, {})", m.axis, m.label),
+        bound,
+        meaning,
+        ..failure(case, class, &m.id)
+    })
+}
+
 fn of_claim(case: &CaseJudgement, c: &ClaimResult) -> Option<Failure> {
     let class = match (&c.unmeasured, c.failed()) {
         (Some(_), _) => NOT_MEASURED,
@@ -123,6 +160,53 @@ fn of_claim(case: &CaseJudgement, c: &ClaimResult) -> Option<Failure> {
     };
     let measured = format!("{}, {} of the settings meet {}", c.verdict, share(c.share), percent(c.bound));
     Some(Failure { measured, bound, meaning, ..failure(case, class, &c.id) })
+}
+
+/// An effect that was left out although the scene calls for it.
+fn of_effect(case: &CaseJudgement, effect: &EffectUse) -> Option<Failure> {
+    let indicator = effect.indicator.as_ref().filter(|_| effect.called_for)?;
+    Some(Failure {
+        measured: format!("{} is {}", indicator.about, format::significant(indicator.value, 3)),
+        bound: format!("{} without {}", format::significant(indicator.limit, 3), effect.name),
+        meaning: format!(
+            "the scene calls for {}, which was left out: no number of this case is trusted; simulate it, or change the scene",
+            effect.name
+        ),
+        ..failure(case, NOT_TRUSTED, &effect.name)
+    })
+}
+
+fn of_ablation(case: &CaseJudgement, a: &AblationJudgement) -> Option<Failure> {
+    let class = match a.verdict? {
+        Verdict::Pass => return None,
+        Verdict::Fail => FAILED,
+        Verdict::Undetermined => NOT_MEASURED,
+    };
+    let bound = match a.expected {
+        Some(Expected::IsCalledFor) => "is called for, and caught when it is left out",
+        _ => "may be left out, costs nothing then, and the guard is silent",
+    };
+    Some(Failure {
+        measured: format!("{}: {}", a.effect, a.why),
+        bound: bound.to_owned(),
+        meaning: "the effect or its guard does not do what this scene was made to show".to_owned(),
+        ..failure(case, class, &a.id)
+    })
+}
+
+fn of_timed(case: &CaseJudgement, t: &TimedGrowth) -> Option<Failure> {
+    let class = match t.seconds_verdict {
+        Verdict::Pass => return None,
+        Verdict::Fail => FAILED,
+        Verdict::Undetermined => NOT_MEASURED,
+    };
+    let [low, high] = t.accepted;
+    Some(Failure {
+        measured: t.seconds_exponent.map_or("no exponent".to_owned(), |p| format::significant(p, 3)),
+        bound: format!("{low} … {high}: {}", t.why),
+        meaning: "wall time grows otherwise than it should; run it again on a quiet machine first".to_owned(),
+        ..failure(case, class, &t.id)
+    })
 }
 
 fn of_cost(case: &CaseJudgement) -> Option<Failure> {

@@ -61,6 +61,38 @@ pub fn grouped(n: u64) -> String {
     head.into_iter().chain(groups).collect::<Vec<_>>().join("\u{202f}")
 }
 
+/// Numbers in a text as they are printed: `4.2·10⁻⁷` for `4.2e-7`, and a minus sign for a hyphen before a digit.
+pub fn typeset(text: &str) -> String {
+    let raised = |c: char| match c {
+        '-' => '⁻',
+        '1' => '¹',
+        '2' => '²',
+        '3' => '³',
+        digit => char::from_u32('⁰' as u32 + (digit as u32 - '0' as u32)).unwrap_or(digit),
+    };
+    let chars: Vec<char> = text.chars().collect();
+    let digit = |i: usize| chars.get(i).is_some_and(char::is_ascii_digit);
+    let mut out = String::new();
+    let mut i = 0;
+    while i < chars.len() {
+        let before = i.checked_sub(1);
+        let sign = usize::from(chars.get(i + 1) == Some(&'-'));
+        if chars[i] == 'e' && before.is_some_and(digit) && digit(i + 1 + sign) {
+            out.push_str("·10");
+            i += 1;
+            while digit(i) || (chars.get(i) == Some(&'-') && digit(i + 1)) {
+                out.push(raised(chars[i]));
+                i += 1;
+            }
+            continue;
+        }
+        let begins = before.is_none_or(|b| !chars[b].is_alphanumeric());
+        out.push(if chars[i] == '-' && begins && digit(i + 1) { '−' } else { chars[i] });
+        i += 1;
+    }
+    out
+}
+
 /// A count with its noun, `1 setting` or `12 settings`.
 pub fn count(n: usize, noun: &str) -> String {
     if n == 1 { format!("1 {noun}") } else { format!("{n} {noun}s") }
@@ -91,6 +123,20 @@ mod tests {
             [0, 999, 1000, 12_345_678].map(grouped),
             ["0", "999", "1\u{202f}000", "12\u{202f}345\u{202f}678"]
         );
+    }
+
+    #[test]
+    fn powers_of_ten_are_printed_as_such() {
+        let cases = [
+            ("4.1597e7 Pa", "4.1597·10⁷ Pa"),
+            ("-3.9e-5 %", "−3.9·10⁻⁵ %"),
+            ("1e-13 … 2e10", "1·10⁻¹³ … 2·10¹⁰"),
+            ("rows-16, stage 3, -0.5", "rows-16, stage 3, −0.5"),
+            ("", ""),
+        ];
+        for (plain, printed) in cases {
+            assert_eq!(typeset(plain), printed);
+        }
     }
 
     #[test]

@@ -1,11 +1,12 @@
 //! From measured results to judged ones.
 
-use crate::claims;
 use crate::compare::{CurveComparison, LEAST_COVERAGE, Tolerance, compare_curves, headroom, signed_error};
+use crate::margins;
 use crate::record::{self, Recorded};
 use crate::results::{CaseJudgement, ClaimResult, CurveResult, Provenance, QuantityResult, Results, SCHEMA};
 use crate::statistics::convergence::fitted_order;
 use crate::verdict::{Verdict, of_quantity};
+use crate::{ablation, claims, cost, growth};
 use seam_cases::result::{CaseResult, Convergence, Family, Observation, Plot, ReferenceKind, Role, Series};
 use std::collections::BTreeSet;
 
@@ -20,7 +21,8 @@ pub fn judge(cases: &[CaseResult], provenance: Provenance, recorded: &Recorded) 
 
 fn judge_case(case: &CaseResult, recorded: &Recorded) -> CaseJudgement {
     let orders = case.convergence.iter().filter_map(order_of);
-    let observed = case.quantities.iter().cloned().chain(orders);
+    let growths = case.growths.iter().map(growth::of_work);
+    let observed = case.quantities.iter().cloned().chain(orders).chain(growths);
     CaseJudgement {
         id: case.id.clone(),
         title: case.title.clone(),
@@ -36,6 +38,15 @@ fn judge_case(case: &CaseResult, recorded: &Recorded) -> CaseJudgement {
             .collect(),
         curves: case.curves.iter().flat_map(judge_curves).collect(),
         claims: claims_in_order(case, recorded),
+        margins: case
+            .margins
+            .iter()
+            .map(|m| margins::judge(m, recorded.margin(&case.tier, &case.id, &m.id)))
+            .collect(),
+        trusted: case.effects.iter().all(|effect| !effect.called_for),
+        costs: case.costs.iter().map(cost::judge).collect(),
+        timed: case.growths.iter().filter_map(growth::of_seconds).collect(),
+        ablations: case.ablations.iter().map(ablation::judge).collect(),
         work: case.work,
         recorded_work: recorded.work(&case.tier, &case.id, &case.scene_hash),
         seconds: case.seconds,
@@ -114,6 +125,7 @@ fn judge_curve(plot: &Plot, model: &Series, reference: &Series) -> CurveResult {
     CurveResult {
         plot: plot.id.clone(),
         series: model.name.clone(),
+        kind: plot.against,
         coverage,
         e2: comparison.as_ref().and_then(|c| c.e2),
         e_max: comparison.as_ref().and_then(|c| c.e_max),

@@ -4,14 +4,19 @@
 //! of every view: [`results::Results::write`] (`results.json`), [`terminal::table`], [`csv`],
 //! [`markdown`] and [`html`].
 
+pub mod ablation;
+pub mod activity;
 pub mod claims;
 pub mod compare;
+pub mod cost;
 pub mod csv;
 pub mod exit;
 pub mod failure;
 pub mod format;
+pub mod growth;
 pub mod html;
 pub mod judge;
+pub mod margins;
 pub mod markdown;
 pub mod plots;
 pub mod record;
@@ -19,4 +24,5 @@ pub mod results;
 pub mod schema;
 pub mod statistics;
 pub mod terminal;
+pub mod validation;
 pub mod verdict;

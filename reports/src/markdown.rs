@@ -52,6 +52,6 @@ pub fn summary(results: &Results) -> String {
 }
 
 /// Text that neither ends a table cell nor starts markup.
-fn escape(text: &str) -> String {
+pub(crate) fn escape(text: &str) -> String {
     text.replace('\\', "\\\\").replace('|', "\\|").replace('<', "&lt;").replace('*', "\\*").replace('\n', " ")
 }

@@ -1,4 +1,4 @@
-//! Recorded verdicts, values and work: what the last accepted run gave.
+//! Recorded verdicts, values, margins and work: what the last accepted run gave.
 //!
 //! A paper's claim may have any honest verdict; the gate goes red when it *changes*. The records
 //! are kept per tier, since the quick tier runs a subset of each family.
@@ -36,6 +36,9 @@ pub struct Recorded {
     /// Values of quantities, by case and quantity.
     #[serde(default)]
     pub values: PerTier<BTreeMap<String, f64>>,
+    /// Margins of hard cases, by case and margin.
+    #[serde(default)]
+    pub margins: PerTier<BTreeMap<String, f64>>,
 }
 
 /// Recorded verdict of a claim.
@@ -139,6 +142,11 @@ impl Recorded {
             new.work.entry(case.tier.clone()).or_default().insert(case.id.clone(), work);
             let values = case.quantities.iter().filter_map(|q| Some((q.id.clone(), q.value?))).collect();
             new.values.entry(case.tier.clone()).or_default().insert(case.id.clone(), values);
+            let margins: BTreeMap<_, _> =
+                case.margins.iter().filter_map(|m| Some((m.id.clone(), m.value?))).collect();
+            if !margins.is_empty() {
+                new.margins.entry(case.tier.clone()).or_default().insert(case.id.clone(), margins);
+            }
             for c in case.claims.iter().filter(|c| c.unmeasured.is_none()) {
                 let claim = RecordedClaim { verdict: c.verdict, share: c.share, hash: c.hash.clone() };
                 new.claims.entry(case.tier.clone()).or_default().insert(c.id.clone(), claim);
@@ -163,6 +171,11 @@ impl Recorded {
     /// Recorded value of a quantity.
     pub fn value(&self, tier: &str, case: &str, quantity: &str) -> Option<f64> {
         self.values.get(tier)?.get(case)?.get(quantity).copied()
+    }
+
+    /// Recorded margin of a hard case.
+    pub fn margin(&self, tier: &str, case: &str, margin: &str) -> Option<f64> {
+        self.margins.get(tier)?.get(case)?.get(margin).copied()
     }
 
     /// Recorded work of a case, if it is of the same scene.

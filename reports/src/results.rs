@@ -1,8 +1,12 @@
 //! `results.json`: judged results, the only source of every view.
 
+use crate::ablation::AblationJudgement;
 use crate::claims::ReadingResult;
 use crate::claims::decides::AxisEffect;
 use crate::claims::particles::Needed;
+use crate::cost::CostJudgement;
+use crate::growth::TimedGrowth;
+use crate::margins::MarginResult;
 use crate::record::{RecordState, RecordedClaim};
 use crate::verdict::{ClaimVerdict, Verdict};
 use schemars::JsonSchema;
@@ -17,8 +21,8 @@ use thiserror::Error;
 /// Name and version of the format.
 pub const SCHEMA: &str = "seam.results/1";
 
-/// Judged results of a run. Two runs of one commit give the same bytes, [`Provenance::machine`] and
-/// [`CaseJudgement::seconds`] apart.
+/// Judged results of a run. Two runs of one commit give the same bytes, [`Provenance::machine`] and fields whose name
+/// contains `seconds` apart.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Results {
     /// [`SCHEMA`].
@@ -74,12 +78,23 @@ pub struct CaseJudgement {
     pub command: String,
     /// Effects that were on or off, and why.
     pub effects: Vec<EffectUse>,
-    /// Judged numbers, observed orders included.
+    /// Whether no effect was left out that the scene calls for.
+    pub trusted: bool,
+    /// Judged numbers, observed orders and exponents of counted work included.
     pub quantities: Vec<QuantityResult>,
     /// Curves compared with their reference.
     pub curves: Vec<CurveResult>,
     /// Judged claims.
     pub claims: Vec<ClaimResult>,
+    /// Judged margins of hard cases.
+    #[serde(default)]
+    pub margins: Vec<MarginResult>,
+    /// What accuracy costs, one entry per diagram.
+    pub costs: Vec<CostJudgement>,
+    /// Exponents of wall time.
+    pub timed: Vec<TimedGrowth>,
+    /// Effects on and off.
+    pub ablations: Vec<AblationJudgement>,
     /// Counted work of the case.
     #[schemars(with = "BTreeMap<String, u64>")]
     pub work: Work,
@@ -132,6 +147,8 @@ pub struct CurveResult {
     pub plot: String,
     /// Name of the model's series.
     pub series: String,
+    /// Kind of the reference.
+    pub kind: ReferenceKind,
     /// Share of the reference's stations inside the model's range.
     pub coverage: f64,
     /// Relative L² error; `null` where the reference is zero throughout.
@@ -147,7 +164,7 @@ pub struct CurveResult {
 }
 
 /// A judged claim.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ClaimResult {
     /// Id of the claim.
     pub id: String,

@@ -18,7 +18,7 @@ pub enum Verdict {
 }
 
 /// Verdict on a claim over a family of settings.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum ClaimVerdict {
     /// Every setting meets the bound, under every reading.
@@ -28,6 +28,7 @@ pub enum ClaimVerdict {
     /// Settings or readings differ.
     Conditional,
     /// The evidence does not decide.
+    #[default]
     Undetermined,
 }
 

@@ -19,6 +19,7 @@ pub mod model;
 pub mod simulation;
 pub mod solve;
 pub mod space;
+pub mod stage;
 pub mod transfer;
 pub mod vtu;
 pub mod work;

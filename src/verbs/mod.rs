@@ -7,6 +7,7 @@ mod references;
 mod report;
 mod run;
 mod show;
+mod study;
 mod validate;
 
 pub use check::check;
@@ -16,4 +17,5 @@ pub use references::references;
 pub use report::report;
 pub use run::run;
 pub use show::show;
+pub use study::study;
 pub use validate::validate;

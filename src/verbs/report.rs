@@ -6,8 +6,8 @@ use crate::{references, results};
 use anyhow::Result;
 use seam_cases::result::CaseResult;
 use seam_reports::exit::Exit;
-use seam_reports::results::Results;
-use seam_reports::{csv, html};
+use seam_reports::results::{Results, write_whole};
+use seam_reports::{csv, html, validation};
 use std::path::Path;
 
 /// Writes the report from results that are there.
@@ -16,6 +16,9 @@ pub fn report(words: &Report) -> Result<Exit> {
     let cases = results::load(&words.from)?;
     let judged = judge_into(&cases, references, &words.from)?;
     write(&judged, &cases, &words.from)?;
+    if let Some(file) = &words.markdown {
+        write_whole(file, &validation::document(&judged, &cases))?;
+    }
     eprintln!("{}", words.from.join("report.html").display());
     Ok(Exit::Pass)
 }

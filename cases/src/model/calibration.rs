@@ -14,6 +14,7 @@ use seam_solver::dem::section::Section;
 use seam_solver::dem::skin::Skin;
 use seam_solver::error::{Error, Result};
 use seam_solver::fem::elasticity::{Elasticity, Hypothesis};
+use seam_solver::stage::{Stage, timed};
 use seam_solver::work::Work;
 use std::collections::BTreeMap;
 use std::sync::{Arc, LazyLock, Mutex, OnceLock};
@@ -45,12 +46,15 @@ pub struct Unit {
     pub stretch: [f64; 3],
 }
 
+/// Bonds, and the work it took to find them.
+pub type Found = (BondRecipe, Work);
+
 /// Bonds of a lattice, stretched as in the body: r̃ in closed form, E_μ measured along x on one period. Where r̃ is given or
 /// the section is not round, what is missing is searched on the same period.
 ///
 /// # Errors
 /// Constants the lattice cannot have.
-pub fn lattice(unit: Unit, target: &Target, given: &BondRecipe, both: bool) -> Result<BondRecipe> {
+pub fn lattice(unit: Unit, target: &Target, given: &BondRecipe, both: bool) -> Result<Found> {
     let key = format!("{unit:?} {target:?} {given:?} {both}");
     remembered(key, || {
         let matter = Matter { density: 1.0, thickness_m: target.thickness_m };
@@ -70,7 +74,7 @@ pub fn lattice(unit: Unit, target: &Target, given: &BondRecipe, both: bool) -> R
             let mut bond = *given;
             bond.section = given.section.with_ratio(found.radius_ratio);
             bond.material.young_pa = found.bond_young_pa;
-            return Ok(bond);
+            return Ok((bond, work));
         }
         let specimens = [Specimen::lattice_cell(unit.kind, unit.spacing, unit.stretch, matter)?];
         find(&specimens, Reading::AlongX, target, given, both)
@@ -81,7 +85,7 @@ pub fn lattice(unit: Unit, target: &Target, given: &BondRecipe, both: bool) -> R
 ///
 /// # Errors
 /// Constants the packing cannot have.
-pub fn packing(protocol: &Protocol, target: &Target, given: &BondRecipe, both: bool) -> Result<BondRecipe> {
+pub fn packing(protocol: &Protocol, target: &Target, given: &BondRecipe, both: bool) -> Result<Found> {
     let protocol = Protocol { seed: 0, ..*protocol };
     remembered(format!("{protocol:?} {target:?} {given:?} {both}"), || {
         let matter = Matter { density: 1.0, thickness_m: target.thickness_m };
@@ -110,7 +114,7 @@ fn find(
     target: &Target,
     given: &BondRecipe,
     both: bool,
-) -> Result<BondRecipe> {
+) -> Result<Found> {
     let wanted = Moduli::of(&target.elasticity, target.hypothesis);
     let mut work = Work::default();
     let mut found = *given;
@@ -126,7 +130,7 @@ fn find(
         let calibrated = calibrate(&request, specimens, &mut work)?;
         found.section = given.section.with_ratio(calibrated.radius_ratio);
         found.material.young_pa = calibrated.bond_young_pa;
-        return Ok(found);
+        return Ok((found, work));
     }
     found.material.young_pa = 1.0;
     found.skin = Skin::Full;
@@ -141,7 +145,7 @@ fn find(
     }
     found.skin = given.skin;
     found.material.young_pa = wanted.young_pa * specimens.len() as f64 / per_unit;
-    Ok(found)
+    Ok((found, work))
 }
 
 static FOUND: LazyLock<Mutex<BTreeMap<String, Slot>>> = LazyLock::new(Mutex::default);
@@ -153,10 +157,11 @@ pub fn forget() {
     }
 }
 
-type Slot = Arc<OnceLock<std::result::Result<BondRecipe, Error>>>;
+type Slot = Arc<OnceLock<std::result::Result<Found, Error>>>;
 
 /// Each calibration runs once: the members of a family share it, whichever thread comes first.
-fn remembered(key: String, find: impl FnOnce() -> Result<BondRecipe>) -> Result<BondRecipe> {
+fn remembered(key: String, find: impl FnOnce() -> Result<Found>) -> Result<Found> {
+    let find = || timed(Stage::Calibration, find);
     let slot = match FOUND.lock() {
         Ok(mut found) => Arc::clone(found.entry(key).or_default()),
         // A panic elsewhere says nothing about the map, but it is not worth relying on.

@@ -11,6 +11,8 @@ mod place;
 mod switches;
 pub mod time;
 
+pub use switches::left_out as switches_left_out;
+
 use crate::error::{Error, Fault, Result};
 use crate::expression::Values;
 use crate::file::SceneFile;
@@ -21,6 +23,8 @@ use seam_solver::failure::Failure;
 use seam_solver::fem::elasticity::{self, Elasticity};
 use seam_solver::model::{Model, Part, PointValue};
 use seam_solver::space::{Space, Vec3};
+use seam_solver::work::Work;
+use std::cell::Cell;
 
 /// A model and what was found out while it was built.
 #[derive(Debug, Clone)]
@@ -33,6 +37,8 @@ pub struct Built {
     pub laws: Vec<(usize, Failure)>,
     /// Packings, calibrations: what a reader must know.
     pub notes: Vec<String>,
+    /// Work of the calibrations, whether they were done now or remembered.
+    pub calibration: Work,
 }
 
 impl Built {
@@ -125,7 +131,8 @@ fn assemble(file: &SceneFile) -> std::result::Result<Built, Refusal> {
             laws.push((*part, failure::law(&context, given, filled, &held)?));
         }
     }
-    Ok(Built { model: Model { space: context.space, parts, ties, supports, loads }, held_by, laws, notes })
+    let model = Model { space: context.space, parts, ties, supports, loads };
+    Ok(Built { model, held_by, laws, notes, calibration: context.calibration.get() })
 }
 
 fn check_size(scene: &Scene, part: &Part) -> std::result::Result<(), Fault> {
@@ -148,6 +155,8 @@ pub(crate) struct Context<'a> {
     pub values: &'a Values,
     pub space: Space,
     pub hypothesis: elasticity::Hypothesis,
+    /// Work of the calibrations so far.
+    pub calibration: Cell<Work>,
 }
 
 impl<'a> Context<'a> {
@@ -159,7 +168,15 @@ impl<'a> Context<'a> {
             Hypothesis::PlaneStrain => elasticity::Hypothesis::PlaneStrain { thickness_m },
             Hypothesis::Solid => elasticity::Hypothesis::Solid,
         };
-        Ok(Self { file, scene, values, space: scene.hypothesis.space(), hypothesis })
+        let space = scene.hypothesis.space();
+        Ok(Self { file, scene, values, space, hypothesis, calibration: Cell::default() })
+    }
+
+    /// Counts the work of one calibration.
+    pub fn calibrated(&self, work: Work) {
+        let mut sum = self.calibration.get();
+        sum += work;
+        self.calibration.set(sum);
     }
 
     /// Material of a body.

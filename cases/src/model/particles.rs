@@ -18,6 +18,7 @@ use seam_solver::dem::packing::{PackingRecipe, pack};
 use seam_solver::dem::section::{self, Section};
 use seam_solver::dem::skin::Skin;
 use seam_solver::space::{Space, Vec3};
+use seam_solver::stage::{Stage, timed};
 
 /// A facet smaller than this share of a mean cell's side is a rounding of four particles on one circle.
 const LEAST_FACET: f64 = 1e-6;
@@ -102,7 +103,7 @@ pub fn fill(
 ) -> Result<Filled, Refusal> {
     let elasticity = context.elasticity(body)?;
     let matter = Matter { density: elasticity.density, thickness_m: context.hypothesis.thickness() };
-    let filling = arrange(context, key, de, (block, rows), matter, notes)?;
+    let filling = timed(Stage::Packing, || arrange(context, key, de, (block, rows), matter, notes))?;
     limit(context, key, &filling.arrangement)?;
     let target = Target { elasticity, hypothesis: context.hypothesis, thickness_m: matter.thickness_m };
     let recipe = recipe(context, key, de, &filling.made, &target, notes)?;
@@ -286,10 +287,11 @@ pub fn recipe(
         return Ok(given);
     }
     let both = de.bond.calibrate == Calibrate::Both;
-    let found = match made {
+    let (found, work) = match made {
         Made::Lattice(unit) => calibration::lattice(*unit, target, &given, both)?,
         Made::Packing(protocol) => calibration::packing(protocol, target, &given, both)?,
     };
+    context.calibrated(work);
     notes.push(format!(
         "{key}: radius ratio {:.4}, bond modulus {:.4e} Pa ({})",
         found.section.ratio(),

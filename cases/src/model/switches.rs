@@ -3,6 +3,9 @@
 use super::place::part_of;
 use super::{Context, Refusal, conditions, particles};
 use crate::error::Fault;
+use crate::file::SceneFile;
+use crate::observe::guard::LeftOut;
+use crate::scene::number::Number;
 use crate::scene::switch::{Axis, Criterion, Switch};
 use seam_solver::dem::block::Block;
 use seam_solver::dem::network::Network;
@@ -127,6 +130,30 @@ fn when(context: &Context, part: &Part, name: &str, switch: &Switch) -> std::res
             return Err(Fault::new(key, "the switch does not say when", mend).into());
         }
     })
+}
+
+/// What the switches that the list of effects leaves out would have looked at.
+///
+/// # Errors
+/// A number without a value.
+pub fn left_out(file: &SceneFile) -> crate::error::Result<Vec<LeftOut>> {
+    let context = Context::new(file).map_err(|fault| file.error(fault))?;
+    let of = |(name, switch): (&String, &Switch)| {
+        let key = format!("switches.{name}");
+        let value = |number: &Number, at: &str| number.value(context.values, &format!("{key}.{at}"));
+        Ok(match (&switch.criterion, &switch.at_load, &switch.at_s) {
+            (Some(criterion), ..) => match by_criterion(&context, criterion, &format!("{key}.criterion"))? {
+                When::Criterion { criterion, .. } => Some(LeftOut::Criterion(switch.body.clone(), criterion)),
+                _ => None,
+            },
+            (None, Some(level), _) => Some(LeftOut::AtLoad(value(level, "at_load")?)),
+            (None, None, Some(time)) => Some(LeftOut::AtTime(value(time, "at_s")?)),
+            (None, None, None) => None,
+        })
+    };
+    let found: std::result::Result<Vec<Option<LeftOut>>, Fault> =
+        file.scene.left_out.switches.iter().map(of).collect();
+    Ok(found.map_err(|fault| file.error(fault))?.into_iter().flatten().collect())
 }
 
 fn by_criterion(context: &Context, criterion: &Criterion, key: &str) -> std::result::Result<When, Fault> {

@@ -72,6 +72,7 @@ fn through(
     let outcome = simulation::run(built.model.clone(), &plan, &mut |snapshot| Ok(watch(snapshot)?));
     drop(plan);
     drop(fills);
+    built.calibration += context.calibration.get();
     built.notes.extend(fillings.into_iter().flat_map(Filling::into_notes));
     outcome
 }

@@ -4,6 +4,7 @@ pub mod bond_stress;
 pub mod crack;
 pub mod curve;
 pub mod field;
+pub mod guard;
 pub mod history;
 pub mod moving_least_squares;
 pub mod probes;

@@ -14,6 +14,7 @@ mod cantilever_eigenfrequencies;
 mod compared;
 mod elastic_bar;
 mod elastica;
+mod hard;
 mod homogenisation;
 mod interface_reflection;
 mod lattice_constants;
@@ -41,23 +42,36 @@ type Procedure = fn(&Setting, &mut CaseResult) -> Result<()>;
 
 /// Names and procedures that need no bodies.
 const REGISTRY: &[(&str, Procedure)] = &[
+    ("bad-states", hard::bad_states::run),
     ("bar-impact", bar_impact::run),
     ("bar-sudden-load", bar_sudden_load::run),
     (bond_for_bond::DYNAMIC, bond_for_bond_dynamic::run),
     (bond_for_bond::STATIC, bond_for_bond_static::run),
     ("bond-matrix", bond_matrix::run),
+    ("bond-radius", hard::bond_radius::run),
     ("calculix", calculix::run),
     ("cantilever-eigenfrequencies", cantilever_eigenfrequencies::run),
+    ("constraints", hard::constraints::run),
+    ("contact-after-break", hard::contact_after_break::run),
+    ("contrast", hard::contrast::run),
+    ("critical-step", hard::critical_step::run),
+    ("distortion", hard::distortion::run),
     ("elastica", elastica::run),
     ("homogenisation", homogenisation::run),
+    ("incompressible", hard::incompressible::run),
     ("interface-reflection", interface_reflection::run),
     ("lattice-constants", lattice_constants::run),
     ("long-run", long_run::run),
     ("manufactured", manufactured::run),
+    ("reproducible", hard::reproducible::run),
     ("rigid-rotation", rigid_rotation::run),
     ("roll-up", roll_up::run),
+    ("single-break", hard::single_break::run),
+    ("slenderness", hard::slenderness::run),
+    ("stability-maps", hard::maps::run),
     ("subcycling", subcycling::run),
     ("time-step-orders", time_step_orders::run),
+    ("transfer-at-peak", hard::transfer_at_peak::run),
 ];
 
 /// Names a scene may give as its procedure.

@@ -1,13 +1,14 @@
 //! Checks of quantities and studies: names that lead nowhere, studies that compare nothing.
 
-use super::Scene;
 use super::check::{Checked, known};
 use super::check_probe::{is_history, zone};
 use super::probe::Read;
 use super::quantity::{Accept, Norm, Quantity};
 use super::study::{Claim, FamilyDeclaration, Levels, Seeds};
+use super::{Scene, effects};
 use crate::error::Fault;
 use crate::expression::Values;
+use crate::names::hint;
 use crate::overrides::label;
 use crate::result::ReferenceKind;
 use serde_json::Value;
@@ -49,8 +50,44 @@ pub fn check(scene: &Scene, values: &Values) -> Checked {
         let key = format!("costs.{name}");
         known(&cost.quantity, "quantity", scene.quantities.keys(), &format!("{key}.quantity"))?;
         levels(&cost.levels, 1, &format!("{key}.levels"))?;
+        if let Some(reference) = &cost.reference {
+            variants(scene, &reference.variants, &format!("{key}.reference.variants"))?;
+            levels(&reference.levels, 1, &format!("{key}.reference.levels"))?;
+        }
         for (setting, names) in &cost.settings {
             variants(scene, names, &format!("{key}.settings.{setting}"))?;
+        }
+    }
+    for (name, growth) in &scene.growth {
+        let key = format!("growth.{name}");
+        variants(scene, &growth.variants, &format!("{key}.variants"))?;
+        // Two levels always lie on a line: an exponent needs three.
+        levels(&growth.levels, 3, &format!("{key}.levels"))?;
+        for (part, given) in [("work", Some(growth.work)), ("seconds", growth.seconds)] {
+            if given.is_some_and(|[low, high]| !(low <= high && low.is_finite() && high.is_finite())) {
+                let key = format!("{key}.{part}");
+                return Err(Fault::new(key, "the interval is empty", "give its lower end first"));
+            }
+        }
+    }
+    for (name, ablation) in &scene.ablations {
+        let key = format!("ablations.{name}");
+        if !effects::NAMES.contains(&ablation.effect.as_str()) {
+            let message = format!("there is no effect '{}'", ablation.effect);
+            return Err(Fault::new(
+                format!("{key}.effect"),
+                message,
+                hint(&ablation.effect, effects::NAMES.into_iter()),
+            ));
+        }
+        variants(scene, &ablation.variants, &format!("{key}.variants"))?;
+        if !(ablation.tolerance > 0.0 && ablation.tolerance < 1.0) {
+            let message = format!("{} is no tolerance", ablation.tolerance);
+            return Err(Fault::new(format!("{key}.tolerance"), message, "give a fraction between 0 and 1"));
+        }
+        if ablation.why.trim().is_empty() {
+            let mend = "say why it is this wide";
+            return Err(Fault::new(format!("{key}.why"), "a tolerance needs its reason", mend));
         }
     }
     Ok(())

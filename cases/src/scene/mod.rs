@@ -17,6 +17,7 @@ pub mod contact;
 pub mod cracking;
 pub mod de;
 pub mod dynamics;
+pub mod effects;
 pub mod failure;
 pub mod fe;
 pub mod material;
@@ -64,7 +65,7 @@ pub struct Scene {
     /// Largest model that is run.
     #[serde(default)]
     pub limits: Limits,
-    /// Effects to simulate, or `["auto"]`.
+    /// Effects to simulate: their names, or `["auto"]` for those that the tables ask for.
     #[serde(default = "auto")]
     pub effects: Vec<String>,
     /// Plane or solid.
@@ -114,6 +115,9 @@ pub struct Scene {
     /// Switches that are not enabled: probes may name them and read nothing.
     #[serde(skip)]
     pub switches_off: BTreeSet<String>,
+    /// What the list of effects leaves out.
+    #[serde(skip)]
+    pub left_out: effects::LeftOut,
     /// What is read off.
     #[serde(default)]
     pub probes: BTreeMap<String, probe::Probe>,
@@ -141,6 +145,12 @@ pub struct Scene {
     /// Work–precision diagrams.
     #[serde(default)]
     pub costs: BTreeMap<String, study::CostDeclaration>,
+    /// How cost grows with size.
+    #[serde(default)]
+    pub growth: BTreeMap<String, study::GrowthDeclaration>,
+    /// Effects that are switched on and off.
+    #[serde(default)]
+    pub ablations: BTreeMap<String, study::AblationDeclaration>,
 }
 
 fn yes() -> bool {

@@ -8,6 +8,7 @@ use super::Tier;
 use super::de::De;
 use super::number::Number;
 use super::quantity::{Norm, Zone};
+use crate::result::Expected;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -212,8 +213,68 @@ pub struct CostDeclaration {
     pub tiers: Vec<Tier>,
     /// Name of the quantity whose relative error counts.
     pub quantity: String,
+    /// One reference for all settings; each setting's own `[reference]` model if not given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub reference: Option<ReferenceModel>,
     /// Resolutions.
     pub levels: Levels,
     /// Settings: legend and variants.
     pub settings: BTreeMap<String, Vec<String>>,
+}
+
+/// `[ablations.NAME]`: one effect on and off, everything else alike, and what that is expected to show.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct AblationDeclaration {
+    /// What is looked at, in words.
+    pub label: String,
+    /// When it is run.
+    #[serde(default = "super::both_tiers")]
+    pub tiers: Vec<Tier>,
+    /// Name of the effect.
+    pub effect: String,
+    /// Variants of the scene that is looked at.
+    #[serde(default)]
+    pub variants: Vec<String>,
+    /// What it is expected to show.
+    pub expect: Expected,
+    /// Change of a quantity that counts as none, as a fraction.
+    pub tolerance: f64,
+    /// Why the tolerance is as wide as it is.
+    pub why: String,
+}
+
+/// `[growth.NAME]`: how cost grows with size.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct GrowthDeclaration {
+    /// What is done, in words.
+    pub label: String,
+    /// When it is run.
+    #[serde(default = "super::both_tiers")]
+    pub tiers: Vec<Tier>,
+    /// Variants of the scene.
+    #[serde(default)]
+    pub variants: Vec<String>,
+    /// Sizes.
+    pub levels: Levels,
+    /// What is counted, and over what.
+    pub of: GrowthOf,
+    /// Interval of the exponent of counted work.
+    pub work: [f64; 2],
+    /// Interval of the exponent of wall time; without it time is not measured.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub seconds: Option<[f64; 2]>,
+    /// Why the intervals are as wide as they are.
+    pub why: String,
+}
+
+/// What cost is counted over what size.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum GrowthOf {
+    /// Bond updates, and time in the steps, per step, over bonds.
+    BondUpdatesPerStep,
+    /// Entries of the factor, and time of the factorisation, over unknowns.
+    FactorEntries,
 }

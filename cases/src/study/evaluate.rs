@@ -7,6 +7,7 @@ use crate::model::{self, Built, time};
 use crate::observe::crack::{self, Cracked};
 use crate::observe::curve::Curve;
 use crate::observe::field::Field;
+use crate::observe::guard::Guard;
 use crate::observe::history::Recorder;
 use crate::observe::probes::{Moment, Observer, Reading};
 use crate::observe::supports::Supports;
@@ -19,6 +20,7 @@ use seam_solver::dynamics::breaking::Loss;
 use seam_solver::model::Numbering;
 use seam_solver::simulation::{Energies, Outcome};
 use seam_solver::solve::statics::{self, Solution};
+use seam_solver::stage::{Stage, timed};
 use seam_solver::work::Work;
 use std::collections::BTreeMap;
 use std::sync::Mutex;
@@ -36,6 +38,8 @@ pub struct Solved {
     pub course: Option<Course>,
     /// How it cracked; `None` where the scene has no `[cracking]`.
     pub cracked: Option<Cracked>,
+    /// What was watched for effects that were left out.
+    pub guard: Guard,
     /// Wall time, in s.
     pub seconds: f64,
 }
@@ -148,12 +152,19 @@ fn stand(file: &SceneFile, built: Built) -> Result<Solved> {
     supports.follow(&built.model, 0);
     let by_probe = read(file, &built, &solution, &supports, |_| true)?;
     let readings = Readings { by_probe, first_switch: None };
-    Ok(Solved { built, solution, readings, course: None, cracked: None, seconds: 0.0 })
+    let mut guard = Guard::new(file)?;
+    guard.watch(&built.model, &solution.u, [0.0, 1.0]).map_err(|e| file.solver(e))?;
+    Ok(Solved { built, solution, readings, course: None, cracked: None, guard, seconds: 0.0 })
 }
 
 fn go(file: &SceneFile, dynamics: &Dynamics, mut built: Built, start: Instant) -> Result<Solved> {
     let mut recorder = Recorder::new(file, Supports::new(&built));
-    let outcome = time::run(file, dynamics, &mut built, &mut |snapshot| recorder.watch(snapshot))?;
+    let mut guard = Guard::new(file)?;
+    let outcome = time::run(file, dynamics, &mut built, &mut |snapshot| {
+        let state = snapshot.state;
+        guard.watch(snapshot.model, &state.u, [state.time, snapshot.factor]).map_err(|e| file.solver(e))?;
+        recorder.watch(snapshot)
+    })?;
     let Outcome { model, state, energies, switches, losses, notes, work, switch_seconds, .. } = outcome;
     let share_of_time = switch_seconds / start.elapsed().as_secs_f64();
     let switches = Switches { reports: switches, extent: extent(&model), share_of_time };
@@ -187,7 +198,7 @@ fn go(file: &SceneFile, dynamics: &Dynamics, mut built: Built, start: Instant) -
     by_probe.extend(curves);
     let course = Course { energies: recorder.energies, switches, losses: losses.len() };
     let readings = Readings { by_probe, first_switch: course.first_switch() };
-    Ok(Solved { built, solution, readings, course: Some(course), cracked: None, seconds: 0.0 })
+    Ok(Solved { built, solution, readings, course: Some(course), cracked: None, guard, seconds: 0.0 })
 }
 
 /// Load (N) when half of the losses have happened; `None` without any.
@@ -232,11 +243,24 @@ fn crack(file: &SceneFile, cracking: &Cracking, mut built: Built) -> Result<Solv
         by_probe.extend(cracked.read(probe, limit).map(|reading| (name.clone(), reading)));
     }
     let readings = Readings { by_probe, first_switch: None };
-    Ok(Solved { built, solution, readings, course: None, cracked: Some(cracked), seconds: 0.0 })
+    let mut guard = Guard::new(file)?;
+    let factor = cracked.outcome.events.last().map_or(1.0, |e| e.factor);
+    guard.watch(&built.model, &solution.u, [0.0, factor]).map_err(|e| file.solver(e))?;
+    Ok(Solved { built, solution, readings, course: None, cracked: Some(cracked), guard, seconds: 0.0 })
 }
 
 /// Reads those probes off a state that a state alone can answer.
 fn read(
+    file: &SceneFile,
+    built: &Built,
+    solution: &Solution,
+    supports: &Supports,
+    wanted: impl Fn(&Probe) -> bool,
+) -> Result<BTreeMap<String, Reading>> {
+    timed(Stage::Output, || read_all(file, built, solution, supports, wanted))
+}
+
+fn read_all(
     file: &SceneFile,
     built: &Built,
     solution: &Solution,

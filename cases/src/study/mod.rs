@@ -2,17 +2,19 @@
 
 mod budget;
 mod convergence;
-mod cost;
+pub mod cost;
 mod digest;
-mod effects;
+pub mod effects;
 mod evaluate;
 mod family;
-mod inertia;
+mod growth;
+mod kept;
 mod picture;
 mod plots;
 mod quantities;
 mod reference;
 mod richardson;
+mod sketch;
 
 use crate::error::{Error, Result};
 use crate::file::SceneFile;
@@ -27,6 +29,8 @@ use seam_solver::model::Model;
 use seam_solver::solve::statics::Solution;
 use serde_json::Value;
 use std::time::Instant;
+
+pub use kept::Kept;
 
 /// A case that has run, with the fields of its scene for ParaView.
 pub struct Run {
@@ -57,12 +61,30 @@ pub fn run(file: &SceneFile, tier: Tier) -> Result<Run> {
     result.families = family::all(&study)?;
     result.budgets = budget::all(&study)?;
     result.costs = cost::all(&study)?;
+    result.growths = growth::all(&study)?;
+    result.ablations = effects::declared(&study)?;
     result.pictures = picture::all(file, &solved);
     result.switches = solved.course.as_ref().map_or_else(Vec::new, |course| course.switches.records());
     result.work = tally.total();
     result.seconds = start.elapsed().as_secs_f64();
     let Solved { built, solution, .. } = solved;
     Ok(Run { result, fields: Some((built.model, solution)) })
+}
+
+/// Who looks on while a study runs.
+pub trait Onlooker {
+    /// A setting begins.
+    fn begin(&self, what: &str);
+    /// It is done, and how.
+    fn done(&self, what: &str, how: &str);
+}
+
+/// Builds, solves and reads a scene once.
+///
+/// # Errors
+/// A fault of the scene, or what the solver refuses.
+pub fn once(file: &SceneFile) -> Result<()> {
+    evaluate::solve(file, &Tally::default()).map(|_| ())
 }
 
 /// What every study needs.

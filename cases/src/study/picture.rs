@@ -1,6 +1,7 @@
 //! The bodies drawn from the model, undeformed and deformed.
 
 use super::evaluate::Solved;
+use super::sketch;
 use crate::file::SceneFile;
 use crate::observe::crack::Shot;
 use crate::result::Picture;
@@ -19,7 +20,10 @@ pub fn all(file: &SceneFile, solved: &Solved) -> Vec<Picture> {
     };
     let mut pictures: Vec<Picture> = shots.iter().enumerate().map(of).collect();
     let state = (&solved.built.model, &solved.solution.numbering, &solved.solution.u[..]);
-    pictures.push(deformed("deformed", &file.scene.title, state));
+    let mut last = deformed("deformed", &file.scene.title, state);
+    last.bodies = sketch::bodies(solved);
+    last.ties = sketch::ties(file, solved);
+    pictures.push(last);
     pictures
 }
 
@@ -73,7 +77,7 @@ fn round_down(x: f64) -> f64 {
     [5.0, 2.0].into_iter().map(|d| d * power).find(|v| *v <= x).unwrap_or(power)
 }
 
-fn flat(x: Vec3) -> [f64; 2] {
+pub(super) fn flat(x: Vec3) -> [f64; 2] {
     [x.x, x.y]
 }
 

@@ -5,7 +5,7 @@ use super::evaluate::{Course, Solved, de_intervals};
 use crate::error::Result;
 use crate::observe::crack::Cracked;
 use crate::observe::curve::{Axis, Curve};
-use crate::result::{Plot, Role, Series};
+use crate::result::{Plot, ReferenceKind, Role, Series};
 use crate::scene::probe::Probe;
 use seam_solver::simulation::Energies;
 use seam_solver::space::Vec3;
@@ -51,13 +51,16 @@ fn plot(study: &Study, solved: &Solved, name: &str, (probe, curve): (&Probe, &Cu
     };
     let role = if curve.axis == Axis::Places { Role::Data } else { Role::Model };
     let mut all = vec![series(own, role, curve)];
+    let mut against = ReferenceKind::Exact;
     for (source, curve) in own_runs(study, name)? {
         all.push(series(&source, Role::Reference, &curve));
+        against = ReferenceKind::OwnRun;
     }
     if study.file.scene.reference.is_some() && probe.read.has_counterpart() {
         let reference = study.library.of(study.file, study.tally)?;
         if let Some((curve, _)) = reference.curves.get(name) {
             all.push(series("reference", Role::Reference, curve));
+            against = ReferenceKind::OwnFem;
         }
     }
     if let Some(exact) = probe.exact.first() {
@@ -84,6 +87,7 @@ fn plot(study: &Study, solved: &Solved, name: &str, (probe, curve): (&Probe, &Cu
         y_label: format!("{} ({})", title.to_lowercase(), probe.read.unit()),
         log: [false; 2],
         band: probe.band,
+        against,
         shaded: shaded(study, solved, curve),
         series: all,
     })

@@ -55,10 +55,25 @@ impl Library {
         let Some(declared) = &file.scene.reference else {
             return Err(fail("there is no [reference] model to compare with; add one".to_owned()));
         };
+        self.model(file, declared, tally)
+    }
+
+    /// The reference that a model makes out of a scene.
+    ///
+    /// # Errors
+    /// As [`Library::of`].
+    pub fn model(
+        &self,
+        file: &SceneFile,
+        declared: &ReferenceModel,
+        tally: &Tally,
+    ) -> Result<Arc<Reference>> {
+        let fail = |message: String| Error::Study { case: file.scene.id.clone(), message };
         let base = file.with(&variants(file, &declared.variants))?;
         // The level's key is set in every run: its value in the scene must not tell scenes apart.
         let finest = declared.levels.values.last().map(|value| at_level(&declared.levels, value));
-        let key = digest::digest(&base.with(finest.as_slice())?);
+        // Two models may end at one finest level and not begin at one coarsest.
+        let key = format!("{} {:?}", digest::digest(&base.with(finest.as_slice())?), declared.levels);
         let found = self.once(key, || compute(&base, declared, tally));
         found.map_err(|message| fail(format!("its reference model failed: {message}")))
     }

@@ -170,7 +170,7 @@ pub fn words(axis: &str) -> String {
 }
 
 /// `weighted skin`, but `rows 8` and `rotations on`.
-fn with_value(name: &str, value: &str) -> String {
+pub(super) fn with_value(name: &str, value: &str) -> String {
     let switch = matches!(value, "on" | "off" | "true" | "false" | "yes" | "no");
     let word = value.starts_with(char::is_alphabetic) && !switch && name != READING;
     if word { format!("{value} {name}") } else { format!("{name} {value}") }

@@ -1,6 +1,7 @@
 //! Claims over families of settings: verdict, share, and what decides.
 
 pub mod decides;
+pub mod meaning;
 pub mod particles;
 mod reason;
 pub mod settings;

@@ -1,41 +1,31 @@
-//! The report: one self-contained page, claims first.
+//! The report: one self-contained page, the answer first.
+//!
+//! [`sections`] lists what the page consists of; `view` puts results into words and figures; the templates do
+//! the rest. A section of its own is a template in `templates/sections/`, a line in [`sections`] and, where the
+//! results need words, a field of the page and a file in `view/`.
 
-mod claim;
+mod files;
 mod prose;
+mod sections;
 mod view;
 
-use crate::plots::Figure;
-use crate::results::{Results, ResultsError, write_whole};
+use crate::results::{Results, ResultsError};
 use minijinja::value::Serde;
 use minijinja::{Environment, context};
 use seam_cases::result::CaseResult;
-use std::path::Path;
 
-const PAGE: &str = include_str!("../../templates/report.html");
-const CLAIM: &str = include_str!("../../templates/claim.html");
-const CASE: &str = include_str!("../../templates/case.html");
-const MACROS: &str = include_str!("../../templates/macros.html");
+pub use files::write_report;
+
+/// Templates that sections share, and the frame around them.
+const SHARED: [(&str, &str); 4] = [
+    ("report.html", include_str!("../../templates/report.html")),
+    ("macros.html", include_str!("../../templates/macros.html")),
+    ("claim.html", include_str!("../../templates/claim.html")),
+    ("case.html", include_str!("../../templates/case.html")),
+];
 const STYLE: &str = include_str!("../../templates/style.css");
+const FIGURES: &str = include_str!("../../templates/figures.css");
 const SCRIPT: &str = include_str!("../../templates/script.js");
-
-/// Writes `report.html` into a folder, whole or not at all, and every figure of it as a file of its own into
-/// `figures/`.
-///
-/// # Errors
-/// A file cannot be written.
-pub fn write_report(results: &Results, cases: &[CaseResult], folder: &Path) -> Result<(), ResultsError> {
-    for (name, figure) in view::page(results, cases).figures() {
-        write_whole(&folder.join("figures").join(format!("{name}.svg")), &standalone(figure))?;
-    }
-    write_whole(&folder.join("report.html"), &page(results, cases)?)
-}
-
-/// A figure that brings the style of the page with it, in light and in dark.
-fn standalone(figure: &Figure) -> String {
-    let style =
-        format!("<style>{STYLE} svg {{ font-family: sans-serif; background: var(--paper); }}</style>");
-    figure.svg.replacen("<title>", &format!("{style}<title>"), 1)
-}
 
 /// The page. Judged and measured cases are joined by their id; a judged case whose measurements are not
 /// given is shown without figures. Everything that depends on the machine or the clock stands between the
@@ -44,15 +34,21 @@ fn standalone(figure: &Figure) -> String {
 /// # Errors
 /// None in practice: the templates are part of the program and tested.
 pub fn page(results: &Results, cases: &[CaseResult]) -> Result<String, ResultsError> {
-    let fail = |e: minijinja::Error| ResultsError::View { view: "report.html", message: format!("{e:#}") };
+    render(&view::page(results, cases))
+}
+
+fn render(page: &view::Page) -> Result<String, ResultsError> {
     let mut templates = Environment::new();
-    for (name, text) in
-        [("report.html", PAGE), ("claim.html", CLAIM), ("case.html", CASE), ("macros.html", MACROS)]
-    {
-        templates.add_template(name, text).map_err(fail)?;
-    }
-    let page = templates.get_template("report.html").map_err(fail)?;
-    let values = context! { style => STYLE, script => SCRIPT, page => Serde(view::page(results, cases)) };
+    SHARED.iter().try_for_each(|(name, text)| templates.add_template(name, text)).map_err(failed)?;
+    sections::add(&mut templates).map_err(failed)?;
+    let sections = sections::render(&templates, page)?;
+    let frame = templates.get_template("report.html").map_err(failed)?;
+    let style = format!("{FIGURES}{STYLE}");
+    let values = context! { style, script => SCRIPT, outcome => page.outcome, sections => Serde(sections) };
     // A percent sign stays on the line of its number.
-    page.render(values).map(|html| html.replace(" %", "\u{a0}%")).map_err(fail)
+    frame.render(values).map(|html| html.replace(" %", "\u{a0}%")).map_err(failed)
+}
+
+fn failed(error: minijinja::Error) -> ResultsError {
+    ResultsError::View { view: "report.html", message: format!("{error:#}") }
 }

@@ -1,43 +1,73 @@
-//! The little Markdown that descriptions of cases use.
+//! The Markdown that descriptions of cases use, as HTML.
 
-use crate::plots::escape;
+use pulldown_cmark::{Event, Parser, Tag, TagEnd, html::push_html};
 
-/// Paragraphs, `` `code` `` and `*emphasis*` as HTML; all else is shown as it is written.
+/// Paragraphs, lists, code and emphasis as HTML; HTML in the text is shown as it is written.
 pub(super) fn html(text: &str) -> String {
-    let paragraphs = text.split("\n\n").map(str::trim).filter(|p| !p.is_empty());
-    paragraphs.map(|p| format!("<p>{}</p>", marked(&marked(&escape(p), '`', "code"), '*', "em"))).collect()
+    rendered(Parser::new(text))
 }
 
-/// Text between pairs of a mark becomes an element. A mark without a partner, and one beside a space on its
-/// inner side such as in `a * b`, stays as it is.
-fn marked(text: &str, mark: char, tag: &str) -> String {
+/// The page of a case without its heading, which the report has written already, and without the command to run
+/// it again, which the report gives for the scene as it was run.
+pub(super) fn page(text: &str) -> String {
+    let body = text.lines().filter(|line| !line.starts_with("Run it again: "));
+    let body: String = body.map(|line| format!("{line}\n")).collect();
+    let mut inside = false;
+    let parser = Parser::new(&body).filter(|event| {
+        let is_heading = match event {
+            Event::Start(Tag::Heading { level: pulldown_cmark::HeadingLevel::H1, .. }) => {
+                inside = true;
+                true
+            }
+            Event::End(TagEnd::Heading(pulldown_cmark::HeadingLevel::H1)) => {
+                inside = false;
+                true
+            }
+            _ => inside,
+        };
+        !is_heading
+    });
+    rendered(parser)
+}
+
+fn rendered<'a>(events: impl Iterator<Item = Event<'a>>) -> String {
+    let plain = events.map(|event| match event {
+        Event::Html(text) | Event::InlineHtml(text) => Event::Text(text),
+        // The headings of a description stand below the heading of its case.
+        Event::Start(Tag::Heading { .. }) => Event::Start(Tag::Heading {
+            level: pulldown_cmark::HeadingLevel::H4,
+            id: None,
+            classes: Vec::new(),
+            attrs: Vec::new(),
+        }),
+        Event::End(TagEnd::Heading(_)) => Event::End(TagEnd::Heading(pulldown_cmark::HeadingLevel::H4)),
+        // A report loads nothing and leads nowhere else.
+        Event::Start(Tag::Link { .. } | Tag::Image { .. }) => Event::Text("".into()),
+        Event::End(TagEnd::Link | TagEnd::Image) => Event::Text("".into()),
+        other => other,
+    });
     let mut out = String::new();
-    let mut rest = text;
-    while let Some((before, after)) = rest.split_once(mark) {
-        out.push_str(before);
-        let tight = |inner: &str| !inner.is_empty() && inner.trim() == inner;
-        match after.split_once(mark).filter(|(inner, _)| tight(inner)) {
-            Some((inner, after)) => {
-                out.push_str(&format!("<{tag}>{inner}</{tag}>"));
-                rest = after;
-            }
-            None => {
-                out.push(mark);
-                rest = after;
-            }
-        }
-    }
-    out + rest
+    push_html(&mut out, plain);
+    out
 }
 
 #[cfg(test)]
 mod tests {
-    use super::html;
+    use super::{html, page};
 
     #[test]
     fn marks_become_elements_and_everything_else_is_escaped() {
-        assert_eq!(html("a *b* `<c>`\n\nd"), "<p>a <em>b</em> <code>&lt;c&gt;</code></p><p>d</p>");
-        assert_eq!(html("2 * 3 * 4"), "<p>2 * 3 * 4</p>");
-        assert_eq!(html("one * alone, `open"), "<p>one * alone, `open</p>");
+        assert_eq!(html("a *b* `<c>`\n\nd"), "<p>a <em>b</em> <code>&lt;c&gt;</code></p>\n<p>d</p>\n");
+        assert_eq!(html("2 * 3 * 4"), "<p>2 * 3 * 4</p>\n");
+        assert_eq!(html("a <b>c</b> [d](http://e)"), "<p>a &lt;b&gt;c&lt;/b&gt; d</p>\n");
+    }
+
+    #[test]
+    fn the_page_of_a_case_loses_what_the_report_says_itself() {
+        let text = "# Title\n\nBody.\n\n## Part\n\n```text\n/|\n```\n\nRun it again: `seam run x`\n";
+        assert_eq!(
+            page(text),
+            "<p>Body.</p>\n<h4>Part</h4>\n<pre><code class=\"language-text\">/|\n</code></pre>\n"
+        );
     }
 }

@@ -47,9 +47,8 @@ pub fn scatter(results: &Results) -> Option<Figure> {
         signed_percent(b.delta - 1.0),
         crate::format::percent(b.sigma)
     );
-    let chart =
-        Chart { title: title.clone(), description: note.clone(), x, y, layers, height: HEIGHT, left: LEFT };
-    Some(Figure { title, svg: chart.svg(), legend, note })
+    let chart = Chart { title, description: note.clone(), x, y, layers, height: HEIGHT, left: LEFT };
+    Some(chart.figure(legend, note))
 }
 
 /// A quantity whose value and reference have a ratio.

@@ -1,8 +1,8 @@
 //! The signed parts of an error, as a waterfall.
 
 use super::chart::{Axis, Chart, Layer, WIDTH};
-use super::{Figure, Ink, LegendEntry};
-use crate::format::signed_percent;
+use super::{Figure, Ink, LegendEntry, csv_line};
+use crate::format::{signed_percent, typeset};
 use plotters::style::text_anchor::HPos;
 use seam_cases::result::Budget;
 
@@ -25,9 +25,9 @@ pub fn waterfall(budget: &Budget) -> Option<Figure> {
     }
     bars.push(("total".to_owned(), 0.0, budget.total, Ink::Total));
     let ends = bars.iter().flat_map(|b| [100.0 * b.1, 100.0 * b.2]);
-    let mut x = Axis::over(&format!("{} (%)", budget.quantity), false, ends)?;
+    let mut x = Axis::over("part of the error (%)", false, ends)?;
     // Room for the number that stands beside the outermost bar.
-    let room = 0.3 * (x.range[1] - x.range[0]);
+    let room = 0.45 * (x.range[1] - x.range[0]);
     x.range = [x.range[0] - room, x.range[1] + room];
     let count = bars.len() as f64;
     let y = Axis {
@@ -56,7 +56,18 @@ pub fn waterfall(budget: &Budget) -> Option<Figure> {
         LegendEntry::area(Ink::Fall, "lowers it"),
         LegendEntry::area(Ink::Total, "total"),
     ];
-    Some(Figure { title: budget.title.clone(), svg: chart.svg(), legend, note: cancelling(budget) })
+    let note = format!("{}. {}", budget.quantity, cancelling(budget));
+    Some(chart.figure_of(legend, note, csv(budget)))
+}
+
+/// The parts and their total, as fractions.
+fn csv(budget: &Budget) -> String {
+    let mut text = csv_line(&["part", &budget.quantity, "scatter", "difference of"]);
+    for p in &budget.parts {
+        let scatter = p.scatter.map_or(String::new(), |s| format!("{s:?}"));
+        text += &csv_line(&[&p.name, &format!("{:?}", p.value), &scatter, &p.how]);
+    }
+    text + &csv_line(&["total", &format!("{:?}", budget.total), "", ""])
 }
 
 fn bar(row: f64, from: f64, to: f64, ink: Ink, room: f64) -> [Layer; 2] {
@@ -65,9 +76,7 @@ fn bar(row: f64, from: f64, to: f64, ink: Ink, room: f64) -> [Layer; 2] {
         if to < from { (to - 0.04 * room, HPos::Right) } else { (to + 0.04 * room, HPos::Left) };
     [
         Layer::Area { ink, points: vec![[from, top], [to, top], [to, bottom], [from, bottom]] },
-        Layer::Text {
-            at: [beside, row], anchor, text: signed_percent(0.01 * (to - from)).replace('-', "−")
-        },
+        Layer::Text { at: [beside, row], anchor, text: typeset(&signed_percent(0.01 * (to - from))) },
     ]
 }
 

@@ -1,7 +1,7 @@
 //! Axes and layers of a chart, drawn by plotters and turned into classes.
 
 use super::ink::{Ink, classes};
-use super::{open_svg, ticks};
+use super::{Figure, LegendEntry, csv_line, open_svg, ticks};
 use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, ValueFormatter};
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
@@ -137,13 +137,45 @@ pub(super) struct Chart {
 pub(super) const WIDTH: u32 = 1200;
 /// Height of most charts.
 pub(super) const HEIGHT: u32 = 700;
-/// Room for numbers at the left.
-pub(super) const LEFT: u32 = 150;
+/// Room for numbers and a label at the left, at the larger letters of narrow windows.
+pub(super) const LEFT: u32 = 200;
 const FONT: u32 = 31;
 
 impl Chart {
+    /// The chart with its legend, a sentence to take home, and the points of everything the legend names.
+    pub(super) fn figure(self, legend: Vec<LegendEntry>, note: String) -> Figure {
+        let csv = self.csv(&legend);
+        self.figure_of(legend, note, csv)
+    }
+
+    /// The same with a table of its own in place of the points.
+    pub(super) fn figure_of(self, legend: Vec<LegendEntry>, note: String, csv: String) -> Figure {
+        Figure { svg: self.svg(), title: self.title, legend, note, csv }
+    }
+
+    /// `series,x,y`, one line per point; a series drawn as a line with dots on it is written once.
+    fn csv(&self, legend: &[LegendEntry]) -> String {
+        let mut text = csv_line(&["series", &self.x.label, &self.y.label]);
+        let mut last: Option<(Ink, &Vec<[f64; 2]>)> = None;
+        for layer in &self.layers {
+            let (Layer::Line { ink, points } | Layer::Dots { ink, points, .. } | Layer::Area { ink, points }) =
+                layer
+            else {
+                continue;
+            };
+            let Some(entry) = legend.iter().find(|e| e.ink == ink.class()) else { continue };
+            if last.replace((*ink, points)) == Some((*ink, points)) {
+                continue;
+            }
+            for [x, y] in points {
+                text += &csv_line(&[&entry.text, &format!("{x:?}"), &format!("{y:?}")]);
+            }
+        }
+        text
+    }
+
     /// The SVG element. A chart that plotters refuses becomes a sentence in its place.
-    pub(super) fn svg(&self) -> String {
+    fn svg(&self) -> String {
         let mut svg = String::new();
         if let Err(message) = self.draw(&mut svg) {
             svg = format!("<svg>\n<text x=\"8\" y=\"24\">{}</text></svg>", super::escape(&message));
@@ -162,17 +194,18 @@ impl Chart {
             .build_cartesian_2d(self.x.clone(), self.y.clone())
             .map_err(|e| e.to_string())?;
         let font = ("sans-serif", FONT).into_font();
-        chart
-            .configure_mesh()
-            .bold_line_style(Ink::Grid.colour())
+        let mut mesh = chart.configure_mesh();
+        mesh.bold_line_style(Ink::Grid.colour())
             .light_line_style(TRANSPARENT)
             .axis_style(Ink::Axis.colour())
             .label_style(font.clone().color(&Ink::Text.colour()))
             .axis_desc_style(font.clone().color(&Ink::Text.colour()))
-            .x_desc(self.x.label.as_str())
-            .y_desc(self.y.label.as_str())
-            .draw()
-            .map_err(|e| e.to_string())?;
+            .x_desc(self.x.label.as_str());
+        // An empty text would still be one, outside the figure.
+        if !self.y.label.is_empty() {
+            mesh.y_desc(self.y.label.as_str());
+        }
+        mesh.draw().map_err(|e| e.to_string())?;
         for layer in &self.layers {
             match layer {
                 Layer::Line { ink, points } => {

@@ -31,9 +31,8 @@ pub fn orders(study: &Convergence) -> Option<Figure> {
     legend.push(LegendEntry::dot(Ink::Data, "levels"));
     layers.push(Layer::Dots { ink: Ink::Data, points, radius: 8 });
     let title = format!("Convergence: {}", study.label);
-    let chart =
-        Chart { title: title.clone(), description: note.clone(), x, y, layers, height: HEIGHT, left: LEFT };
-    Some(Figure { title, svg: chart.svg(), legend, note })
+    let chart = Chart { title, description: note.clone(), x, y, layers, height: HEIGHT, left: LEFT };
+    Some(chart.figure(legend, note))
 }
 
 /// A triangle of the formal order under the finest two levels.

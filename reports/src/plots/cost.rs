@@ -2,46 +2,46 @@
 
 use super::chart::{Axis, Chart, HEIGHT, LEFT, Layer};
 use super::{Figure, Ink, LegendEntry};
+use crate::cost::{self, TARGETS};
 use crate::format::{grouped, percent, significant};
 use seam_cases::result::{CostDiagram, CostPoint, CostSetting};
 
-/// Error that the closing sentence asks for.
-const TARGET: f64 = 0.01;
+pub use crate::cost::Cost;
 
-/// What the cost is counted in.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Cost {
-    /// `Work::total`: the same in every run.
-    Work,
-    /// Wall seconds: not deterministic.
-    Seconds,
-}
+/// Error that a line is drawn at.
+const TARGET: f64 = 0.01;
+/// Most settings in one figure: there are no more colours that stay apart.
+const MOST: usize = 6;
 
 impl Cost {
-    fn of(self, p: &CostPoint) -> f64 {
-        match self {
-            Cost::Work => p.work.total() as f64,
-            Cost::Seconds => p.seconds,
-        }
-    }
-
     fn label(self) -> &'static str {
         match self {
             Cost::Work => "counted work (updates and factor entries)",
             Cost::Seconds => "wall time (s)",
         }
     }
-
-    fn words(self, p: &CostPoint) -> String {
-        match self {
-            Cost::Work => format!("{} units of work", grouped(p.work.total())),
-            Cost::Seconds => format!("{} s", significant(p.seconds, 2)),
-        }
-    }
 }
 
-/// Error over cost, one line per setting, broken where a run failed; `None` if there is nothing to draw.
-pub fn work_precision(diagram: &CostDiagram, cost: Cost) -> Option<Figure> {
+/// Error over cost, one line per setting, broken where a run failed; several figures where there are many settings, each with
+/// the best of all of them.
+pub fn work_precision(diagram: &CostDiagram, cost: Cost) -> Vec<Figure> {
+    let groups: Vec<&[CostSetting]> = diagram.settings.chunks(MOST).collect();
+    let figure = |(k, group): (usize, &&[CostSetting])| {
+        let title = match groups.len() {
+            1 => diagram.title.clone(),
+            several => format!("{} ({} of {several})", diagram.title, k + 1),
+        };
+        figure(diagram, (k * MOST, group), title, cost)
+    };
+    groups.iter().enumerate().filter_map(figure).collect()
+}
+
+fn figure(
+    diagram: &CostDiagram,
+    (first, group): (usize, &[CostSetting]),
+    title: String,
+    cost: Cost,
+) -> Option<Figure> {
     let runs = || diagram.settings.iter().flat_map(|s| &s.points).filter(|p| p.error.is_some());
     let x = Axis::over(cost.label(), true, runs().map(|p| cost.of(p)))?;
     let errors = runs().filter_map(|p| p.error).map(|e| 100.0 * e);
@@ -49,7 +49,11 @@ pub fn work_precision(diagram: &CostDiagram, cost: Cost) -> Option<Figure> {
     let target = x.range.map(|x| [x, 100.0 * TARGET]).to_vec();
     let mut layers = vec![Layer::Line { ink: Ink::Bound, points: target }];
     let mut legend = vec![LegendEntry::line(Ink::Bound, percent(TARGET))];
-    for (i, setting) in diagram.settings.iter().enumerate() {
+    if diagram.settings.len() > group.len() {
+        layers.push(Layer::Line { ink: Ink::Theory, points: front(diagram, cost) });
+        legend.push(LegendEntry::line(Ink::Theory, "best of all settings"));
+    }
+    for (i, setting) in group.iter().enumerate() {
         let ink = Ink::series(i);
         legend.push(LegendEntry::line(ink, &setting.name));
         for points in unbroken(setting, cost) {
@@ -58,17 +62,31 @@ pub fn work_precision(diagram: &CostDiagram, cost: Cost) -> Option<Figure> {
         }
     }
     let title = match cost {
-        Cost::Work => diagram.title.clone(),
-        Cost::Seconds => format!("{}, in seconds", diagram.title),
+        Cost::Work => title,
+        Cost::Seconds => format!("{title}, in seconds"),
     };
     let description = format!("{} over {}", diagram.error_label, cost.label());
-    let chart = Chart { title: title.clone(), description, x, y, layers, height: HEIGHT, left: LEFT };
-    Some(Figure {
-        title,
-        svg: chart.svg(),
-        legend,
-        note: format!("{} Error: {}.", cheapest(diagram, cost), diagram.error_label),
-    })
+    // Said once, under the first figure.
+    let note = match first {
+        0 => format!("{} Error: {}.", cheapest(diagram, cost), diagram.error_label),
+        _ => String::new(),
+    };
+    let chart = Chart { title, description, x, y, layers, height: HEIGHT, left: LEFT };
+    Some(chart.figure(legend, note))
+}
+
+/// Points that no other beats in both, as a line.
+fn front(diagram: &CostDiagram, cost: Cost) -> Vec<[f64; 2]> {
+    let all = diagram.settings.iter().flat_map(|s| &s.points);
+    let mut points: Vec<[f64; 2]> = all.filter_map(|p| Some([cost.of(p), 100.0 * p.error?])).collect();
+    points.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
+    let mut least = f64::INFINITY;
+    points.retain(|p| {
+        let better = p[1] < least;
+        least = least.min(p[1]);
+        better
+    });
+    points
 }
 
 /// The runs of a setting, as pieces without a failed run between them.
@@ -78,26 +96,27 @@ fn unbroken(setting: &CostSetting, cost: Cost) -> Vec<Vec<[f64; 2]>> {
     pieces.filter(|piece| !piece.is_empty()).map(|piece| piece.iter().filter_map(point).collect()).collect()
 }
 
-/// `Cheapest setting with error ≤ 1 %: weighted skin, 8 rows, 202 particles, 0.4 s.`
+/// `Cheapest setting with error ≤ 5 %: half skin, 4 rows, 61 particles, 0.1 s; ≤ 1 %: …; ≤ 0.1 %: none.`
 fn cheapest(diagram: &CostDiagram, cost: Cost) -> String {
-    let runs = diagram.settings.iter().flat_map(|s| s.points.iter().map(move |p| (s, p)));
-    let good = runs.filter(|(_, p)| p.error.is_some_and(|e| e <= TARGET));
-    let best = good.min_by(|(_, a), (_, b)| cost.of(a).total_cmp(&cost.of(b)));
     let failed = diagram.settings.iter().flat_map(|s| &s.points).filter(|p| p.error.is_none()).count();
     let gaps = if failed > 0 {
         format!(" {} failed and left a gap.", crate::format::count(failed, "run"))
     } else {
         String::new()
     };
-    match best {
-        Some((s, p)) => format!(
-            "Cheapest setting with error ≤ {}: {}, {}, {} particles, {}.{gaps}",
-            percent(TARGET),
-            s.name,
-            p.level,
-            p.particles,
-            cost.words(p)
-        ),
-        None => format!("No setting reaches an error of {}.{gaps}", percent(TARGET)),
-    }
+    let parts: Vec<String> = TARGETS
+        .iter()
+        .map(|&target| {
+            let found = cost::cheapest(diagram, target, cost);
+            let Some(setting) = &found.setting else { return format!("≤ {}: none", percent(target)) };
+            let particles =
+                if found.particles > 0 { format!(", {} particles", found.particles) } else { String::new() };
+            let price = match cost {
+                Cost::Work => format!("{} units of work", grouped(found.work)),
+                Cost::Seconds => format!("{} s", significant(found.seconds, 2)),
+            };
+            format!("≤ {}: {setting}, {}{particles}, {price}", percent(target), found.level)
+        })
+        .collect();
+    format!("Cheapest setting with error {}.{gaps}", parts.join("; "))
 }

@@ -12,7 +12,8 @@ pub fn curves(plot: &Plot) -> Option<Figure> {
     let all = || plot.series.iter();
     let band_y = band.iter().map(|p| p[1]);
     let x = Axis::over(&plot.x_label, plot.log[0], all().flat_map(|s| s.x.iter().copied()))?;
-    let y = Axis::over(&plot.y_label, plot.log[1], all().flat_map(|s| s.y.iter().copied()).chain(band_y))?;
+    let y =
+        Axis::over(short(&plot.y_label), plot.log[1], all().flat_map(|s| s.y.iter().copied()).chain(band_y))?;
     let (mut layers, mut legend) = zones(plot, y.range);
     if !band.is_empty() {
         layers.push(Layer::Area { ink: Ink::Band, points: band });
@@ -44,7 +45,7 @@ pub fn curves(plot: &Plot) -> Option<Figure> {
     let names: Vec<&str> = plot.series.iter().map(|s| s.name.as_str()).collect();
     let description = format!("{} over {}: {}", plot.y_label, plot.x_label, names.join(", "));
     let chart = Chart { title: plot.title.clone(), description, x, y, layers, height: HEIGHT, left: LEFT };
-    Some(Figure { title: plot.title.clone(), svg: chart.svg(), legend, note: String::new() })
+    Some(chart.figure(legend, String::new()))
 }
 
 /// What is left of each model after the reference is taken away, in percent of the reference's largest value.
@@ -63,17 +64,24 @@ pub fn residuals(plot: &Plot) -> Option<Figure> {
     }
     let all = || models.iter().flat_map(|(_, p)| p.iter());
     let x = Axis::over(&plot.x_label, plot.log[0], all().map(|p| p[0]))?;
-    let y = Axis::over("error (% of largest reference)", false, all().map(|p| p[1]).chain([0.0]))?;
+    let y = Axis::over("error (% of largest)", false, all().map(|p| p[1]).chain([0.0]))?;
     let (mut layers, mut legend) = zones(plot, y.range);
     layers.push(Layer::Line { ink: Ink::Reference, points: x.range.map(|x| [x, 0.0]).to_vec() });
     for (i, (name, points)) in models.into_iter().enumerate() {
         legend.push(LegendEntry::line(Ink::series(i), name));
         layers.push(Layer::Line { ink: Ink::series(i), points });
     }
-    let title = format!("{}: what is left", plot.title);
+    let title = format!("{}: residual", plot.title);
     let description = format!("model minus reference over {}", plot.x_label);
-    let chart = Chart { title: title.clone(), description, x, y, layers, height: HEIGHT, left: LEFT };
-    Some(Figure { title, svg: chart.svg(), legend, note: String::new() })
+    let chart = Chart { title, description, x, y, layers, height: HEIGHT, left: LEFT };
+    Some(chart.figure(legend, String::new()))
+}
+
+/// A label that fits beside the axis: its unit alone where the whole is too long and stands in the caption anyway.
+fn short(label: &str) -> &str {
+    const MOST: usize = 30;
+    let unit = label.rfind('(').map_or(label, |at| &label[at..]);
+    if label.chars().count() > MOST { unit } else { label }
 }
 
 fn points(series: &Series) -> Vec<[f64; 2]> {

@@ -5,7 +5,6 @@ use super::{Figure, Ink, LegendEntry};
 use crate::claims::decides::{READING, words};
 use crate::format::percent;
 use crate::results::ClaimResult;
-use plotters::style::text_anchor::HPos;
 use seam_cases::result::{Family, Member};
 use std::collections::BTreeSet;
 
@@ -20,7 +19,7 @@ pub fn scatter(family: &Family, claim: &ClaimResult, own: Option<&Family>) -> Op
     let bounds = [Some(family), own].into_iter().flatten().map(|f| 100.0 * f.bound);
     let x = Axis::over("particles (1)", true, all().map(|p| p[0]))?;
     let y = Axis::over("error (%)", true, all().map(|p| p[1]).chain(bounds))?;
-    let mut layers = bound(Ink::Bound, family.bound, x.range);
+    let mut layers = vec![bound(Ink::Bound, family.bound, x.range)];
     let mut legend =
         vec![LegendEntry::line(Ink::Bound, format!("bound of the claim, {}", percent(family.bound)))];
     for (i, value) in values(family, axis).into_iter().enumerate() {
@@ -31,7 +30,7 @@ pub fn scatter(family: &Family, claim: &ClaimResult, own: Option<&Family>) -> Op
         layers.push(Layer::Dots { ink: Ink::series(i), points, radius: 8 });
     }
     if let Some(own) = own {
-        layers.extend(bound(Ink::OwnBound, own.bound, x.range));
+        layers.push(bound(Ink::OwnBound, own.bound, x.range));
         legend.push(LegendEntry::line(
             Ink::OwnBound,
             format!("bound of our own claim, {}", percent(own.bound)),
@@ -43,8 +42,8 @@ pub fn scatter(family: &Family, claim: &ClaimResult, own: Option<&Family>) -> Op
     let meaning = family.readings.get(reading).map_or(reading.as_str(), String::as_str);
     let description = format!("{} of {} members; {meaning}", mine.len(), family.members.len());
     let note = gaps(family, meaning);
-    let chart = Chart { title: title.clone(), description, x, y, layers, height: HEIGHT, left: LEFT };
-    Some(Figure { title, svg: chart.svg(), legend, note })
+    let chart = Chart { title, description, x, y, layers, height: HEIGHT, left: LEFT };
+    Some(chart.figure(legend, note))
 }
 
 fn points<'a>(members: impl Iterator<Item = &'a Member>, reading: &str) -> Vec<[f64; 2]> {
@@ -62,12 +61,9 @@ fn values(family: &Family, axis: Option<&str>) -> Vec<String> {
     values
 }
 
-fn bound(ink: Ink, bound: f64, [left, right]: [f64; 2]) -> Vec<Layer> {
+fn bound(ink: Ink, bound: f64, [left, right]: [f64; 2]) -> Layer {
     let at = 100.0 * bound;
-    vec![
-        Layer::Line { ink, points: vec![[left, at], [right, at]] },
-        Layer::Text { at: [right / 1.03, at * 1.22], anchor: HPos::Right, text: percent(bound) },
-    ]
+    Layer::Line { ink, points: vec![[left, at], [right, at]] }
 }
 
 fn gaps(family: &Family, meaning: &str) -> String {

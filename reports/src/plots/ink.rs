@@ -33,12 +33,22 @@ pub enum Ink {
     Fall,
     /// A sum.
     Total,
+    /// Part of a map: a run that stayed bounded.
+    Bounded,
+    /// Part of a map: a run that was refused, though it would stay bounded.
+    Cautious,
+    /// Part of a map: a run that was refused.
+    Refused,
+    /// Part of a map: a run that was stopped.
+    Stopped,
+    /// Part of a map: a run that went wrong and nothing said so.
+    Silent,
     /// Series 0 to 5, in an order of colours that stay apart for colour-blind readers.
     Series(u8),
 }
 
 /// Every ink, so that colours can be turned back into classes.
-const ALL: [Ink; 20] = [
+const ALL: [Ink; 25] = [
     Ink::Text,
     Ink::Axis,
     Ink::Grid,
@@ -53,6 +63,11 @@ const ALL: [Ink; 20] = [
     Ink::Rise,
     Ink::Fall,
     Ink::Total,
+    Ink::Bounded,
+    Ink::Cautious,
+    Ink::Refused,
+    Ink::Stopped,
+    Ink::Silent,
     Ink::Series(0),
     Ink::Series(1),
     Ink::Series(2),
@@ -84,6 +99,11 @@ impl Ink {
             Ink::Rise => "ink-rise",
             Ink::Fall => "ink-fall",
             Ink::Total => "ink-total",
+            Ink::Bounded => "ink-bounded",
+            Ink::Cautious => "ink-cautious",
+            Ink::Refused => "ink-refused",
+            Ink::Stopped => "ink-stopped",
+            Ink::Silent => "ink-silent",
             Ink::Series(0) => "ink-0",
             Ink::Series(1) => "ink-1",
             Ink::Series(2) => "ink-2",

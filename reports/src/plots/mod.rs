@@ -11,7 +11,10 @@ pub mod cost;
 pub mod curves;
 pub mod family;
 mod ink;
+pub mod map;
 pub mod picture;
+mod shapes;
+pub mod sketch;
 mod ticks;
 
 pub use ink::Ink;
@@ -28,6 +31,9 @@ pub struct Figure {
     pub legend: Vec<LegendEntry>,
     /// A sentence to take home, or empty.
     pub note: String,
+    /// The numbers it is drawn from, as CSV.
+    #[serde(skip)]
+    pub csv: String,
 }
 
 /// One line of a legend.
@@ -62,6 +68,18 @@ pub(crate) fn escape(text: &str) -> String {
         .replace('>', "&gt;")
         .replace('"', "&quot;")
         .replace('\'', "&#39;")
+}
+
+/// A line of CSV; fields with a comma, a quote or a line break are quoted.
+fn csv_line(fields: &[&str]) -> String {
+    let quoted = |field: &&str| {
+        if field.contains([',', '"', '\n']) {
+            format!("\"{}\"", field.replace('"', "\"\""))
+        } else {
+            (*field).to_owned()
+        }
+    };
+    fields.iter().map(quoted).collect::<Vec<_>>().join(",") + "\n"
 }
 
 /// Opening tag of an accessible figure of some size, followed by its title and description.

@@ -1,6 +1,6 @@
 //! Where the ticks of an axis stand, and what is written at them.
 
-use crate::format::significant;
+use crate::format::{significant, typeset};
 
 /// Round numbers inside `[lo, hi]`, about `count` of them: multiples of 1, 2 or 5 times a power of ten.
 pub(super) fn linear(lo: f64, hi: f64, count: usize) -> Vec<f64> {
@@ -35,7 +35,7 @@ pub(super) fn linear_label(value: f64, step: f64) -> String {
         return "0".to_owned();
     }
     let digits = (digit(value) - digit(step * (1.0 + 1e-9)) + 1).max(1) as usize;
-    significant(value, digits).replace('-', "−")
+    typeset(&significant(value, digits))
 }
 
 /// Label of a logarithmic tick: plain from 0.001 to 5000, a power of ten beyond.
@@ -45,23 +45,10 @@ pub(super) fn logarithmic_label(log: f64) -> String {
     if (-3..4).contains(&power) {
         return significant(multiple * 10f64.powi(power), 2);
     }
-    let superscript: String = power.to_string().chars().map(raise).collect();
-    if multiple == 1.0 { format!("10{superscript}") } else { format!("{multiple}·10{superscript}") }
-}
-
-fn raise(c: char) -> char {
-    match c {
-        '-' => '⁻',
-        '0' => '⁰',
-        '1' => '¹',
-        '2' => '²',
-        '3' => '³',
-        '4' => '⁴',
-        '5' => '⁵',
-        '6' => '⁶',
-        '7' => '⁷',
-        '8' => '⁸',
-        _ => '⁹',
+    if multiple == 1.0 {
+        typeset(&format!("1e{power}"))["1·".len()..].to_owned()
+    } else {
+        typeset(&format!("{multiple}e{power}"))
     }
 }
 
@@ -84,7 +71,7 @@ mod tests {
         };
         assert_eq!(labels(0.994, 1.013, 0.005), ["0.995", "1", "1.005", "1.01"]);
         assert_eq!(labels(-10.5, 3.0, 5.0), ["−10", "−5", "0"]);
-        assert_eq!(labels(0.0, 4e6, 1e6), ["0", "1e6", "2e6", "3e6", "4e6"]);
+        assert_eq!(labels(0.0, 4e6, 1e6), ["0", "1·10⁶", "2·10⁶", "3·10⁶", "4·10⁶"]);
     }
 
     #[test]

@@ -1,6 +1,8 @@
-//! The error table for a terminal of 80 columns: claims, numbers, failures, one closing line.
+//! The error table for a terminal of 80 columns: claims, numbers, margins, failures, one closing line.
 
 mod failures;
+mod margins;
+pub(crate) mod studies;
 mod style;
 
 pub use style::Style;
@@ -27,6 +29,8 @@ pub fn table(results: &Results, style: Style) -> String {
         out.push_str(&style.paint(Paint::Dim, &columns()));
         results.cases.iter().for_each(|c| out.push_str(&case(c, style)));
     }
+    out.push_str(&margins::table(results, style));
+    out.push_str(&studies::sections(results, style));
     out.push_str(&failures::blocks(results, style));
     out.push_str(&closing(results));
     out

@@ -13,8 +13,8 @@ fn the_page() -> String {
 fn the_answer_comes_first() {
     let page = the_page();
     let order = [
+        "id=\"answer\"",
         "id=\"claims\"",
-        "id=\"failures\"",
         "id=\"numbers\"",
         "id=\"bias\"",
         "id=\"budget\"",
@@ -49,12 +49,45 @@ fn every_link_within_the_page_leads_somewhere() {
 fn every_figure_can_be_read_aloud_and_follows_the_theme() {
     let page = the_page();
     let figures: Vec<&str> = page.split("<svg ").skip(1).filter_map(|s| s.split("</svg>").next()).collect();
-    assert_eq!(figures.len(), 9, "family, bias, budget, work, seconds, picture, curves, residuals, order");
+    assert_eq!(
+        figures.len(),
+        10,
+        "family, bias, budget, work, seconds, sketch, picture, curves, residuals, order"
+    );
     for figure in figures {
         assert!(figure.contains("role=\"img\"") && figure.contains("<title>") && figure.contains("<desc>"));
         let hard = figure.split(['"', ' ']).find(|word| word.starts_with('#'));
         assert_eq!(hard, None, "a colour that no theme can change in {}", &figure[..200]);
         assert!(!figure.contains("NaN"));
+    }
+}
+
+#[test]
+fn every_number_says_what_it_is_evidence_of() {
+    let page = the_page();
+    let (table, _) = page.split_once("id=\"errors\"").unwrap().1.split_once("</table>").unwrap();
+    let rows: Vec<&str> = table.split("<tr data-verdict").skip(1).collect();
+    assert_eq!(rows.len(), 21);
+    let of =
+        |activity: &str| rows.iter().filter(|r| r.contains(&format!("data-activity=\"{activity}\""))).count();
+    assert_eq!((of("verification"), of("benchmarking"), of("validation")), (20, 1, 0));
+}
+
+#[test]
+fn every_figure_is_a_file_and_its_numbers_another() {
+    let folder = tempfile::tempdir().unwrap();
+    write_report(&fixture::results(), &fixture::cases(), folder.path()).unwrap();
+    let figures = std::fs::read_dir(folder.path().join("figures")).unwrap();
+    let mut names: Vec<String> = figures.map(|f| f.unwrap().file_name().into_string().unwrap()).collect();
+    names.sort();
+    let drawn: Vec<&str> = names.iter().filter_map(|n| n.strip_suffix(".svg")).collect();
+    let tables: Vec<&str> = names.iter().filter_map(|n| n.strip_suffix(".csv")).collect();
+    assert_eq!(drawn, tables);
+    assert_eq!(drawn.len(), the_page().matches("<svg ").count());
+    for name in &tables {
+        let text = std::fs::read_to_string(folder.path().join(format!("figures/{name}.csv"))).unwrap();
+        let fields = text.lines().next().unwrap().split(',').count();
+        assert!(fields >= 3 && text.lines().count() > 2, "{name}: {text}");
     }
 }
 

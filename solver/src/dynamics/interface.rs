@@ -7,6 +7,7 @@ use super::semidiscrete::row_product;
 use super::system::System;
 use crate::error::{Error, Result};
 use crate::solve::sparse::{Factor, Ordering, SymmetricMatrix, Triplets};
+use crate::stage::{Stage, timed};
 use crate::work::Work;
 
 /// `C v` must be this small beside the terms it sums.
@@ -51,7 +52,7 @@ impl Interface {
             }
         }
         let h = SymmetricMatrix::from_triplets(rows.len(), &h);
-        let factor = Factor::new(&h, Ordering::MinimumDegree)?;
+        let factor = timed(Stage::Factorisation, || Factor::new(&h, Ordering::MinimumDegree))?;
         work.factorisations += 1;
         work.factor_nonzeros += factor.nonzeros() as u64;
         Ok(Interface { inverse_mass, scale, factor: Some(factor) })

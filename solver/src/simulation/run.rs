@@ -16,6 +16,7 @@ use crate::dynamics::State;
 use crate::dynamics::breaking::Breaking;
 use crate::error::Error;
 use crate::model::{Model, Part};
+use crate::stage::{Stage, timed};
 use std::time::Instant;
 
 /// Runs a model from rest, or from the plan's velocities, at time zero to the end; `watch` sees the snapshots.
@@ -23,6 +24,14 @@ use std::time::Instant;
 /// # Errors
 /// What a plan or its schemes refuse; what `watch` returns.
 pub fn run<E: From<Error>>(
+    model: Model,
+    plan: &Plan,
+    watch: &mut dyn FnMut(&Snapshot) -> Result<(), E>,
+) -> Result<Outcome, E> {
+    timed(Stage::Steps, || through(model, plan, watch))
+}
+
+fn through<E: From<Error>>(
     mut model: Model,
     plan: &Plan,
     watch: &mut dyn FnMut(&Snapshot) -> Result<(), E>,

@@ -9,6 +9,7 @@ use crate::dynamics::breaking::Breaking;
 use crate::dynamics::ledger::WorkDone;
 use crate::error::{Error, Result};
 use crate::model::Model;
+use crate::stage::{Stage, timed};
 use crate::work::Work;
 
 /// A scheme on one model.
@@ -179,7 +180,7 @@ impl<'a> Course<'a> {
     ) -> std::result::Result<(), E> {
         let energies = self.energies(look);
         self.worst_closure = self.worst_closure.max(energies.closure());
-        watch(&Snapshot {
+        let snapshot = Snapshot {
             model,
             state: &look.state,
             factor: self.plan.loads.at(look.state.time),
@@ -188,6 +189,7 @@ impl<'a> Course<'a> {
             reactions: &look.reactions,
             switches: self.switches,
             losses,
-        })
+        };
+        timed(Stage::Output, || watch(&snapshot))
     }
 }

@@ -15,6 +15,7 @@ use super::order::nested_dissection;
 use super::sparse::{Factor, Ordering, SymmetricMatrix, Triplets};
 use crate::error::{Error, Result};
 use crate::space::{Space, Vec3};
+use crate::stage::{Stage, timed};
 use crate::work::Work;
 
 const GAMMA: f64 = 1.0;
@@ -104,7 +105,7 @@ impl Kkt {
         }
         let matrix = SymmetricMatrix::from_triplets(n + rows.len(), &scaled);
         drop(scaled);
-        let factor = factorise(&matrix, layout)?;
+        let factor = timed(Stage::Factorisation, || factorise(&matrix, layout))?;
         work.factorisations += 1;
         work.factor_nonzeros += factor.nonzeros() as u64;
         Ok(Kkt { stiffness, rows: scaled_rows, unknown_scale, row_scale, factor })

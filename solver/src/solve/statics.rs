@@ -9,6 +9,7 @@ use crate::error::Result;
 use crate::fem;
 use crate::model::{Model, Numbering, Part, PointValue};
 use crate::space::Vec3;
+use crate::stage::{Stage, timed};
 use crate::work::Work;
 
 /// Equilibrium of a model.
@@ -113,7 +114,7 @@ fn equilibrium(
     let [first, rest @ ..] = EPSILONS;
     let kkt = Kkt::new(stiffness, &tied.reduced, layout, first, work)?;
     refuse_mechanism(kkt.softest_motion(work))?;
-    let mut solution = kkt.solve(load, &tied.rhs, work);
+    let mut solution = timed(Stage::Steps, || kkt.solve(load, &tied.rhs, work));
     drop(kkt);
     for epsilon in rest {
         if solution.is_ok() {
@@ -130,6 +131,10 @@ pub(crate) fn assemble_stiffness(
     numbering: &Numbering,
     work: &mut Work,
 ) -> Result<SymmetricMatrix> {
+    timed(Stage::Assembly, || assemble_parts(model, numbering, work))
+}
+
+fn assemble_parts(model: &Model, numbering: &Numbering, work: &mut Work) -> Result<SymmetricMatrix> {
     let mut triplets = Triplets::default();
     for (p, part) in model.parts.iter().enumerate() {
         let offset = numbering.offset(p);
@@ -169,6 +174,15 @@ pub(crate) struct Constraints {
 
 /// Rows of all ties that the supports leave independent; `place` numbers the free unknowns.
 pub(crate) fn constraints(
+    model: &Model,
+    numbering: &Numbering,
+    prescribed: &[Option<f64>],
+    place: &[usize],
+) -> Result<Constraints> {
+    timed(Stage::Assembly, || independent_rows(model, numbering, prescribed, place))
+}
+
+fn independent_rows(
     model: &Model,
     numbering: &Numbering,
     prescribed: &[Option<f64>],

@@ -21,6 +21,7 @@ use crate::error::{Error, Result};
 use crate::fem::continuum::Continuum;
 use crate::model::{Model, Numbering, Part, PointValue};
 use crate::space::Vec3;
+use crate::stage::{Stage, timed};
 use crate::work::Work;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -95,7 +96,8 @@ pub fn substitute(
     let as_mapped = report::balance(&new, &mapped, factor, work)?;
     if switch.mode >= Mode::ReEquilibrate {
         let mass = lumped(&new, &Numbering::new(&new))?;
-        *work += equilibrium::relax(&new, discrete, &mut mapped, factor, &mass)?;
+        let relax = || equilibrium::relax(&new, discrete, &mut mapped, factor, &mass);
+        *work += timed(Stage::Relaxation, relax)?;
     }
     let after = report::balance(&new, &mapped, factor, work)?;
     let interface = interface_forces(model, state, &new, &mapped, switch, &pieces, discrete)?;

@@ -1,19 +1,23 @@
 //! What the template of a claim shows.
 
+use crate::activity::Activity;
+use crate::claims::meaning;
 use crate::format::{percent, share};
 use crate::plots::{self, Figure};
 use crate::results::{CaseJudgement, ClaimResult};
-use seam_cases::result::{CaseResult, Family};
+use seam_cases::result::{CaseResult, Family, ReferenceKind};
 use serde::Serialize;
 
 /// A claim in words and figures.
 #[derive(Serialize)]
-pub(super) struct Claim {
+pub(crate) struct Claim {
     id: String,
     case: String,
+    activity: &'static str,
     judged: ClaimResult,
     bound: String,
     share: String,
+    meaning: String,
     recorded: String,
     readings: Vec<ReadingRow>,
     axes: Vec<AxisRow>,
@@ -56,8 +60,11 @@ pub(super) fn claim(case: &CaseJudgement, judged: &ClaimResult, measured: Option
     Claim {
         id: judged.id.clone(),
         case: case.id.clone(),
+        // Errors of a family are distances to the scene's reference model, finite elements.
+        activity: Activity::against(ReferenceKind::OwnFem).name(),
         bound: percent(judged.bound),
         share: share(judged.share),
+        meaning: meaning::paragraph(judged),
         recorded: recorded(judged),
         readings: judged
             .readings

@@ -1,10 +1,10 @@
 //! Whether inertia is simulated, and whether it may be left out.
 
-use super::effects::named;
-use super::evaluate::{Course, Solved};
+use super::super::evaluate::{Course, Solved};
+use super::{off, on, watched};
 use crate::file::SceneFile;
 use crate::model;
-use crate::result::EffectUse;
+use crate::result::{EffectUse, Indicator};
 use crate::scene::dynamics::Stepping;
 use seam_solver::dynamics::load::LoadFactor;
 use seam_solver::dynamics::modes;
@@ -19,7 +19,7 @@ const LARGE_SWAY: f64 = 0.05;
 pub fn effect(file: &SceneFile, solved: &Solved) -> EffectUse {
     let name = "inertia";
     let (Some(dynamics), Some(course)) = (&file.scene.dynamics, &solved.course) else {
-        return named(name, false, "statics: loads are applied slowly", 0);
+        return off(name, "statics: loads are applied slowly");
     };
     if dynamics.stepping != Stepping::QuasiStatic {
         let why = match kinetic_share(course) {
@@ -28,24 +28,21 @@ pub fn effect(file: &SceneFile, solved: &Solved) -> EffectUse {
             }
             None => "the scene asks for it".to_owned(),
         };
-        return named(name, true, &why, solved.solution.work.steps);
+        return on(name, why, solved.solution.work.steps);
     }
     let end = dynamics.end_s.value(&file.values, "").ok();
     let sway = end.zip(model::time::factor(file, dynamics).ok()).zip(period(file));
-    let why = match sway.map(|((end, factor), period)| (sway_of(&factor, end, period), period)) {
-        Some((sway, period)) if sway > LARGE_SWAY => format!(
-            "the scene asks for equilibria, but the loads change fast against the first period of {period:.2e} s: inertia \
-             would sway by up to {sway:.2} of the largest deflection: not trusted"
-        ),
-        Some((sway, period)) => format!(
-            "loads change slowly against the first period of {period:.2e} s: inertia would sway by at most {sway:.1e} of the \
-             largest deflection"
-        ),
-        None => {
-            "the scene asks for equilibria; there is no first period to compare the loads with".to_owned()
+    match sway.map(|((end, factor), period)| (sway_of(&factor, end, period), period)) {
+        Some((value, period)) => {
+            let about = format!(
+                "the sway that inertia would add to the largest deflection, the first period being {period:.2e} s,"
+            );
+            watched(name, Indicator { about, value, limit: LARGE_SWAY })
         }
-    };
-    named(name, false, &why, 0)
+        None => {
+            off(name, "the scene asks for equilibria; there is no first period to compare the loads with")
+        }
+    }
 }
 
 /// Largest kinetic over largest strain energy; `None` if nothing was ever strained.
@@ -58,7 +55,7 @@ fn kinetic_share(course: &Course) -> Option<f64> {
 }
 
 /// First period of the model as it starts, in s; `None` for mechanisms and the like.
-fn period(file: &SceneFile) -> Option<f64> {
+pub fn period(file: &SceneFile) -> Option<f64> {
     let model = model::build(file).ok()?.model;
     let mut work = Work::default();
     let system = Semidiscrete::new(&model, &mut work).ok()?;

@@ -1,0 +1,149 @@
+//! What is watched over a run so that effects which were left out can be missed.
+
+use crate::error::Result;
+use crate::file::SceneFile;
+use crate::model::switches_left_out;
+use seam_solver::fem::continuum::Continuum;
+use seam_solver::model::{Model, Numbering, Part};
+use seam_solver::space::Vec3;
+use seam_solver::transfer::criterion::Criterion;
+
+/// The largest values over all outputs.
+#[derive(Debug, Clone, Default)]
+pub struct Guard {
+    /// Of particles and of elements at their centres, in rad.
+    pub largest_rotation: f64,
+    /// Of the switches that were left out: indicator over trigger, or load or time over that of the switch.
+    pub nearest_switch: Option<f64>,
+    left_out: Vec<LeftOut>,
+}
+
+/// A switch that was left out.
+#[derive(Debug, Clone)]
+pub enum LeftOut {
+    /// Body of elements, and what would choose among them.
+    Criterion(String, Criterion),
+    /// Load factor.
+    AtLoad(f64),
+    /// Time, in s.
+    AtTime(f64),
+}
+
+impl Guard {
+    /// Nothing seen yet.
+    ///
+    /// # Errors
+    /// A switch that was left out and is not sound.
+    pub fn new(file: &SceneFile) -> Result<Self> {
+        Ok(Self { left_out: switches_left_out(file)?, ..Self::default() })
+    }
+
+    /// Looks at a state; time in s.
+    ///
+    /// # Errors
+    /// An inverted element.
+    pub fn watch(
+        &mut self,
+        model: &Model,
+        u: &[f64],
+        [time, factor]: [f64; 2],
+    ) -> seam_solver::error::Result<()> {
+        let numbering = Numbering::new(model);
+        for (p, part) in model.parts.iter().enumerate() {
+            let first = numbering.offset(p);
+            let turned = match part {
+                Part::Continuum(body) => of_elements(body, &u[first..first + body.dof_count()]),
+                Part::Discrete { .. } => of_particles(model, part, &u[first..]),
+            };
+            self.largest_rotation = self.largest_rotation.max(turned);
+        }
+        for left_out in &self.left_out {
+            let near = match left_out {
+                LeftOut::AtLoad(level) => factor / level,
+                LeftOut::AtTime(at) => time / at,
+                LeftOut::Criterion(name, criterion) => nearest(model, &numbering, u, name, criterion)?,
+            };
+            self.nearest_switch = Some(self.nearest_switch.map_or(near, |before| before.max(near)));
+        }
+        Ok(())
+    }
+}
+
+fn of_particles(model: &Model, part: &Part, u: &[f64]) -> f64 {
+    let (dim, each) = (model.space.dim(), part.dofs_per_point());
+    let turned =
+        |point: usize| u[point * each + dim..(point + 1) * each].iter().map(|r| r * r).sum::<f64>().sqrt();
+    (0..part.positions().len()).map(turned).fold(0.0, f64::max)
+}
+
+/// Largest `½ |curl u|` at the centres of the elements.
+fn of_elements(body: &Continuum, u: &[f64]) -> f64 {
+    let mesh = &body.mesh;
+    let dim = mesh.space.dim();
+    let turned = |cell: usize| {
+        let sample = mesh.sample(cell, [0.0; 3]);
+        let curl = mesh.cell(cell).iter().zip(&sample.gradients).map(|(&node, gradient)| {
+            let mut own = Vec3::zeros();
+            (0..dim).for_each(|c| own[c] = u[node * dim + c]);
+            gradient.cross(&own)
+        });
+        0.5 * curl.sum::<Vec3>().norm()
+    };
+    (0..mesh.cell_count()).map(turned).fold(0.0, f64::max)
+}
+
+/// Largest indicator over its trigger.
+fn nearest(
+    model: &Model,
+    numbering: &Numbering,
+    u: &[f64],
+    name: &str,
+    criterion: &Criterion,
+) -> seam_solver::error::Result<f64> {
+    let mut largest = 0.0f64;
+    for (p, part) in model.parts.iter().enumerate() {
+        if let Part::Continuum(body) = part
+            && body.name == name
+        {
+            let first = numbering.offset(p);
+            let values = criterion.values(body, &u[first..first + body.dof_count()])?;
+            largest = values.into_iter().fold(largest, f64::max);
+        }
+    }
+    Ok(largest / criterion.trigger)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::catalogue;
+    use crate::model;
+
+    /// A small rigid rotation turns elements and particles by just its angle.
+    #[test]
+    fn a_rigid_rotation_is_seen_by_both_sides() {
+        let file = catalogue::case("clamped-beam-rotation", &[]).unwrap();
+        let model = model::build(&file).unwrap().model;
+        let numbering = Numbering::new(&model);
+        let angle = 0.03;
+        let mut u = vec![0.0; numbering.len()];
+        for (p, part) in model.parts.iter().enumerate() {
+            for (k, x) in part.positions().iter().enumerate() {
+                u[numbering.unknown(p, k, 0)] = -angle * x.y;
+                u[numbering.unknown(p, k, 1)] = angle * x.x;
+                if matches!(part, Part::Discrete { .. }) {
+                    u[numbering.unknown(p, k, 2)] = angle;
+                }
+            }
+        }
+        for only in 0..model.parts.len() {
+            let mut alone = model.clone();
+            alone.ties.clear();
+            alone.parts = vec![model.parts[only].clone()];
+            let first = numbering.offset(only);
+            let mut guard = Guard::new(&file).unwrap();
+            guard.watch(&alone, &u[first..], [0.0, 1.0]).unwrap();
+            assert!((guard.largest_rotation - angle).abs() < 1e-12, "{}: {}", only, guard.largest_rotation);
+        }
+    }
+}

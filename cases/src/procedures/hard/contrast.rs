@@ -1,0 +1,115 @@
+//! Stiffness or mass a million times larger or smaller on one side of the interface.
+//!
+//! The bound on the step must stay safe and tight, the tied velocities must agree, and an implicit run must keep its ties.
+
+use super::super::Setting;
+use super::bodies::{SPACES, Sandwich, scale};
+use super::unrefused::Unrefused;
+use crate::error::Result;
+use crate::margin::Search;
+use crate::result::CaseResult;
+use seam_solver::coupling::Method as Tying;
+use seam_solver::dynamics::State;
+use seam_solver::dynamics::critical;
+use seam_solver::dynamics::explicit::{Explicit, Options};
+use seam_solver::dynamics::newmark::{Newmark, Scheme, start};
+use seam_solver::dynamics::semidiscrete::Semidiscrete;
+use seam_solver::model::{Model, Numbering};
+use seam_solver::solve::statics;
+use seam_solver::work::Work;
+
+const ROW: &str = "stiffness or mass contrast across the interface";
+/// `‖Cv‖` over the velocities that it is the difference of.
+const MISMATCH: f64 = 1e-10;
+/// Energy that no entry accounts for, over the largest one: rounding of some hundred steps, each beside forces of the stiff side.
+const UNCLOSED: f64 = 1e-9;
+
+/// Stiffer, softer, heavier and lighter particles between elements; both ties; explicit and implicit.
+pub fn run(setting: &Setting, result: &mut CaseResult) -> Result<()> {
+    let steps = setting.count("steps", 10)?;
+    let search =
+        Search { from: 1.0, to: setting.number("contrast_to")?, tolerance: setting.number("width")? };
+    let ties = [(Tying::Pointwise, "pointwise"), (Tying::Mortar, "mortar")];
+    for (space, where_) in SPACES {
+        for (tying, tie) in ties {
+            let base = Sandwich::of(setting, space)?;
+            let elements =
+                if tying == Tying::Mortar { [base.rows - 1, base.rows + 1] } else { base.elements };
+            let sandwich = Sandwich { tying, elements, ..base };
+            for (kind, what) in [(0, "stiffer"), (1, "softer"), (2, "heavier"), (3, "lighter")] {
+                let model = |factor: f64| -> seam_solver::error::Result<Model> {
+                    let mut model = sandwich.cantilever(1.0)?;
+                    let [k, m] =
+                        [[factor, 1.0], [1.0 / factor, 1.0], [1.0, factor], [1.0, 1.0 / factor]][kind];
+                    scale(&mut model, k, m);
+                    Ok(model)
+                };
+                let work = &mut result.work;
+                let found = search.largest(|factor| {
+                    let model = model(factor).map_err(|e| setting.solver(e))?;
+                    // What the solver refuses does not pass, but it says so.
+                    Ok(explicit(&model, steps, work).unwrap_or(false))
+                })?;
+                result.margins.push(found.margin(
+                    [ROW, "the bound on the step is safe and within a factor of two, ‖Cv‖ is below 1e-10 and the ledger closes to 1e-9"],
+                    [&format!("explicit-{what}-{tie}-{where_}"), &format!("{tie} ties, {where_}, explicit"), &format!("particles {what} than the elements")],
+                    1e6,
+                ));
+                let found = search.largest(|factor| {
+                    let model = model(factor).map_err(|e| setting.solver(e))?;
+                    Ok(implicit(&model, steps / 10, work).unwrap_or(false))
+                })?;
+                result.margins.push(found.margin(
+                    [ROW, "implicit steps keep ‖Bv‖ below 1e-10 and their energy to 1e-8"],
+                    [
+                        &format!("implicit-{what}-{tie}-{where_}"),
+                        &format!("{tie} ties, {where_}, trapezoidal rule"),
+                        &format!("particles {what} than the elements"),
+                    ],
+                    1e6,
+                ));
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Largest `|Σ c v|` over the largest `Σ |c v|`.
+fn mismatch<'a>(rows: impl Iterator<Item = &'a [(usize, f64)]>, v: &[f64]) -> f64 {
+    let (mut gap, mut size) = (0.0f64, 0.0f64);
+    for row in rows {
+        gap = gap.max(row.iter().map(|&(i, c)| c * v[i]).sum::<f64>().abs());
+        size = size.max(row.iter().map(|&(i, c)| (c * v[i]).abs()).sum());
+    }
+    if size > 0.0 { gap / size } else { gap }
+}
+
+fn explicit(model: &Model, steps: usize, work: &mut Work) -> seam_solver::error::Result<bool> {
+    let bound = critical::bound(model)?.step_s;
+    let exact = Unrefused::new(model)?.critical_step();
+    let rest = State::at_rest(Numbering::new(model).len());
+    let mut run = Explicit::new(model, Options { step_s: bound, ..Options::default() }, &rest)?;
+    run.advance(steps as u64)?;
+    let seen = run.observe()?;
+    *work += run.work();
+    let apart = mismatch(run.system().rows.iter().map(|r| &r.terms[..]), &seen.state.v);
+    Ok(bound <= exact && exact <= 2.0 * bound && apart <= MISMATCH && seen.ledger.closure() <= UNCLOSED)
+}
+
+fn implicit(model: &Model, steps: usize, work: &mut Work) -> seam_solver::error::Result<bool> {
+    let system = Semidiscrete::new(model, work)?;
+    let standing = statics::solve(model)?;
+    let u: Vec<f64> = system.free.iter().map(|&i| standing.u[i]).collect();
+    let v = vec![0.0; u.len()];
+    let (mut motion, _) = start(&system, (u, v), 0.0, 0.0, 0.0, work)?;
+    let step = 10.0 * critical::bound(model)?.step_s;
+    let newmark = Newmark::new(&system, Scheme::TRAPEZOIDAL, step, 0.0, work)?;
+    let energy = system.strain(&motion.u);
+    let mut kept = true;
+    for _ in 0..steps {
+        newmark.step(&mut motion, [0.0; 2], work)?;
+        let now = system.kinetic(&motion.v) + system.strain(&motion.u);
+        kept &= (now / energy - 1.0).abs() <= 1e-8;
+    }
+    Ok(kept && mismatch(system.rows.iter().map(|r| &r[..]), &motion.v) <= MISMATCH)
+}

@@ -1,0 +1,50 @@
+//! Work–precision: error against counted work and seconds for several settings.
+
+mod levels;
+mod measure;
+mod plan;
+mod settings;
+mod target;
+
+pub use plan::{CostStudy, Surroundings};
+
+use super::{Study, at_level, level_name};
+use crate::error::Result;
+use crate::overrides::Override;
+use crate::result::{CostDiagram, CostPoint, CostSetting};
+use crate::scene::study::CostDeclaration;
+use measure::{Repeats, measure};
+use target::Target;
+
+/// The cost diagrams that the scene declares for this tier: its own settings at its own levels.
+pub(super) fn all(study: &Study) -> Result<Vec<CostDiagram>> {
+    let now = study.file.scene.costs.iter().filter(|(_, declared)| declared.tiers.contains(&study.tier));
+    now.map(|(name, declared)| one(study, name, declared)).collect()
+}
+
+fn one(study: &Study, name: &str, declared: &CostDeclaration) -> Result<CostDiagram> {
+    let target = Target::declared(study, declared)?;
+    let setting = |(legend, names): (&String, &Vec<String>)| {
+        let points = declared.levels.values.iter().map(|value| {
+            let mut changes = study.variants(names);
+            changes.push(at_level(&declared.levels, value));
+            point(study, &target, &changes, level_name(&declared.levels, value))
+        });
+        CostSetting { name: legend.clone(), points: points.collect() }
+    };
+    Ok(CostDiagram {
+        id: name.to_owned(),
+        title: declared.title.clone(),
+        settings: declared.settings.iter().map(setting).collect(),
+        ..target.head(study)
+    })
+}
+
+/// A setting that cannot run is a gap in its line, with the reason.
+fn point(study: &Study, target: &Target, changes: &[Override], level: String) -> CostPoint {
+    let file = study.file.with(changes);
+    let found = file.and_then(|file| measure(study, target, &file, &[], Repeats::IfShort));
+    let point =
+        found.unwrap_or_else(|error| CostPoint { failed: Some(error.to_string()), ..CostPoint::default() });
+    CostPoint { level, ..point }
+}

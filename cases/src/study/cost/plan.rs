@@ -1,0 +1,227 @@
+//! A cost study: every setting at every level, whatever the tier of the scene's own diagrams says.
+
+use super::super::evaluate::Tally;
+use super::super::kept::Kept;
+use super::super::reference::Library;
+use super::super::{Onlooker, Study, digest, head, variants};
+use super::levels::Resolution;
+use super::measure::{Repeats, measure};
+use super::settings::{Setting, all_elements, generated, packings};
+use super::target::Target;
+use crate::error::{Error, Result};
+use crate::file::SceneFile;
+use crate::result::{CaseResult, CostDiagram, CostPoint, CostSetting};
+use crate::scene::Tier;
+use crate::scene::study::CostDeclaration;
+use std::collections::BTreeSet;
+
+/// Packings per random setting.
+const SEEDS: [u64; 2] = [3, 7];
+/// Runs shorter than this are timed again, in s.
+const REPEATED_S: f64 = 2.0;
+/// A level is taken to cost at most this many times the one before: twice the rows in a solid, and twice the steps.
+const GROWTH: f64 = 16.0;
+/// The variant, and the legend, of the setting that others are compared with.
+const PAPER_LIKE: &str = "paper-like";
+
+/// What a study needs from outside.
+pub struct Surroundings<'a> {
+    /// Who looks on.
+    pub onlooker: &'a dyn Onlooker,
+    /// Where finished points are kept.
+    pub kept: &'a Kept,
+    /// No run is begun that is expected to take longer, in s.
+    pub longest_s: f64,
+    /// Largest memory of a process that runs this scene alone, in MB; `None` where it cannot be told.
+    pub memory_mb: &'a dyn Fn(&SceneFile) -> Option<f64>,
+}
+
+/// What accuracy costs in one scene: the settings it declares and those one change away from it.
+pub struct CostStudy<'a> {
+    file: &'a SceneFile,
+    tier: Tier,
+    diagrams: Vec<Diagram<'a>>,
+}
+
+struct Diagram<'a> {
+    id: String,
+    title: String,
+    declared: Option<&'a CostDeclaration>,
+    resolution: Resolution,
+    settings: Vec<Setting>,
+}
+
+impl<'a> CostStudy<'a> {
+    /// Chooses settings and levels.
+    ///
+    /// # Errors
+    /// A case without a scene.
+    pub fn plan(file: &'a SceneFile, tier: Tier) -> Result<Self> {
+        let scene = &file.scene;
+        if scene.bodies.is_empty() {
+            let message = format!(
+                "the procedure '{}' has no bodies whose settings could vary; study a scene with [bodies]",
+                scene.procedure
+            );
+            return Err(Error::Study { case: scene.id.clone(), message });
+        }
+        let mut diagrams: Vec<Diagram> = Vec::new();
+        for (name, declared) in &scene.costs {
+            let settings = declared
+                .settings
+                .iter()
+                .map(|(legend, names)| Setting { name: legend.clone(), changes: variants(file, names) });
+            diagrams.push(Diagram {
+                id: name.clone(),
+                title: declared.title.clone(),
+                declared: Some(declared),
+                resolution: Resolution::of(scene),
+                settings: distinct(file, settings.chain(generated(file))),
+            });
+        }
+        if diagrams.is_empty() {
+            let like = scene.variants.contains_key(PAPER_LIKE).then(|| Setting {
+                name: PAPER_LIKE.to_owned(),
+                changes: variants(file, &[PAPER_LIKE.to_owned()]),
+            });
+            diagrams.push(Diagram {
+                id: "study".to_owned(),
+                title: format!("What accuracy costs: {}", scene.title),
+                declared: None,
+                resolution: Resolution::of(scene),
+                settings: distinct(file, like.into_iter().chain(generated(file))),
+            });
+        }
+        Ok(Self { file, tier, diagrams })
+    }
+
+    /// Number of points.
+    pub fn len(&self) -> usize {
+        self.diagrams.iter().map(|d| d.settings.len() * d.resolution.len()).sum()
+    }
+
+    /// Whether there is nothing to measure.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// Measures all points, one after the other, coarse to fine.
+    ///
+    /// # Errors
+    /// A reference model that fails; points that cannot be kept. A setting that cannot run is a gap.
+    pub fn run(&self, around: &Surroundings) -> Result<CaseResult> {
+        let (tally, library) = (Tally::default(), Library::default());
+        let study = Study { file: self.file, tier: self.tier, tally: &tally, library: &library };
+        let mut result = head(self.file, self.tier);
+        result.command = result.command.replacen("seam run", "seam study cost", 1);
+        for diagram in &self.diagrams {
+            result.costs.push(diagram.run(&study, around)?);
+        }
+        Ok(result)
+    }
+}
+
+impl Diagram<'_> {
+    fn run(&self, study: &Study, around: &Surroundings) -> Result<CostDiagram> {
+        let target = match self.declared {
+            Some(declared) => Target::declared(study, declared)?,
+            None => Target::found(study, || self.finest(study))?,
+        };
+        let mut diagram =
+            CostDiagram { id: self.id.clone(), title: self.title.clone(), ..target.head(study) };
+        for setting in &self.settings {
+            let mut points: Vec<CostPoint> = Vec::new();
+            for level in 0..self.resolution.len() {
+                let before =
+                    points.last().map_or(0.0, |p| if p.error.is_some() { p.seconds } else { f64::INFINITY });
+                points.push(self.point(study, (&target, setting), level, before, around)?);
+            }
+            diagram.settings.push(CostSetting { name: setting.name.clone(), points });
+        }
+        diagram.paper_like = self.settings.iter().map(|s| &s.name).find(|name| *name == PAPER_LIKE).cloned();
+        Ok(diagram)
+    }
+
+    /// The scene beyond its finest level, all finite elements where it can be.
+    fn finest(&self, study: &Study) -> Result<(SceneFile, String)> {
+        let changes = all_elements(&study.file.scene).map_or(Vec::new(), |setting| setting.changes);
+        let base = study.file.with(&changes)?;
+        let (name, more) = self.resolution.beyond(&base);
+        let what = if changes.is_empty() { "the scene itself" } else { "the scene, all finite elements" };
+        Ok((base.with(&more)?, format!("{what}, finer than all levels: {name}")))
+    }
+
+    /// One point; `before` is what the level before took, in s.
+    fn point(
+        &self,
+        study: &Study,
+        (target, setting): (&Target, &Setting),
+        level: usize,
+        before: f64,
+        around: &Surroundings,
+    ) -> Result<CostPoint> {
+        let gap = |level: String, why: String| CostPoint { level, failed: Some(why), ..CostPoint::default() };
+        let base = match study.file.with(&setting.changes) {
+            Ok(base) => base,
+            Err(error) => {
+                around.onlooker.done(&setting.name, "cannot be set");
+                return Ok(gap(String::new(), error.to_string()));
+            }
+        };
+        let (name, changes) = self.resolution.level(&base, level);
+        let what = format!("{}, {name}", setting.name);
+        around.onlooker.begin(&what);
+        if before.is_finite() && before * GROWTH > around.longest_s.max(GROWTH * REPEATED_S) {
+            around.onlooker.done(&what, "left out, it would take too long");
+            let why = format!(
+                "left out: the level before took {before:.1} s, so this one may take longer than {} s (--longest)",
+                around.longest_s
+            );
+            return Ok(gap(name, why));
+        }
+        let file = match base.with(&changes) {
+            Ok(file) => file,
+            Err(error) => {
+                around.onlooker.done(&what, "cannot be set");
+                return Ok(gap(name, error.to_string()));
+            }
+        };
+        let seeds = SEEDS[usize::from(study.tier == Tier::Full)];
+        let packings = packings(&file.scene, seeds);
+        let key = key(study, &file, &self.id, packings.len());
+        let (point, kept) = around.kept.part(&key, || {
+            let found = measure(study, target, &file, &packings, Repeats::Below(REPEATED_S));
+            found.map_or_else(
+                |error| gap(name.clone(), error.to_string()),
+                |point| CostPoint { memory_mb: (around.memory_mb)(&file), ..point },
+            )
+        })?;
+        let how = match (kept, point.error) {
+            (true, _) => "kept".to_owned(),
+            (false, Some(error)) => format!("error {:.2} %, {:.2} s", 100.0 * error, point.seconds),
+            (false, None) => "failed".to_owned(),
+        };
+        around.onlooker.done(&what, &how);
+        Ok(CostPoint { level: name, ..point })
+    }
+}
+
+/// Settings that differ in what is computed; of two that do not, the first.
+fn distinct(file: &SceneFile, settings: impl Iterator<Item = Setting>) -> Vec<Setting> {
+    let mut seen = BTreeSet::new();
+    // One that does not read is kept: it becomes a gap with its reason.
+    let mut new =
+        |setting: &Setting| file.with(&setting.changes).map_or(true, |f| seen.insert(digest::digest(&f)));
+    settings.filter(|setting| new(setting)).collect()
+}
+
+/// All that a point depends on: the scene as it is run, what is read off, how many packings, and the program.
+fn key(study: &Study, file: &SceneFile, diagram: &str, packings: usize) -> String {
+    let parts = [&study.file.hash(), &file.hash(), diagram, &packings.to_string(), env!("CARGO_PKG_VERSION")];
+    let mut hasher = blake3::Hasher::new();
+    parts.iter().for_each(|part| {
+        hasher.update(part.as_bytes());
+        hasher.update(b"\n");
+    });
+    hasher.finalize().to_hex()[..32].to_owned()
+}

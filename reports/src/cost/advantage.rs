@@ -1,0 +1,119 @@
+//! How much cheaper other settings reach the accuracy of the paper-like one.
+
+use super::TARGETS;
+use super::reach::{Cost, Reached, reached};
+use schemars::JsonSchema;
+use seam_cases::result::{CostDiagram, CostSetting};
+use serde::{Deserialize, Serialize};
+
+/// The paper-like setting against the cheapest other one with particles, at one accuracy: costs are read off the line of each
+/// setting, interpolated in logarithms, never extrapolated.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Advantage {
+    /// The accuracy, as a fraction.
+    pub error: f64,
+    /// Whether a claim of somebody else is about it.
+    pub claimed: bool,
+    /// The setting with the least counted work.
+    pub setting: String,
+    /// Counted work of the paper-like setting over that of this one.
+    pub times_less_work: f64,
+    /// Whether it is at least that: the paper-like setting does not get there, or this one starts better.
+    pub work_at_least: bool,
+    /// The same in wall time. Not deterministic.
+    pub times_less_seconds: f64,
+    /// Whether it is at least that. Not deterministic.
+    pub seconds_at_least: bool,
+}
+
+/// At each claimed accuracy and each of [`TARGETS`], large to small, that some setting reaches.
+pub fn advantages(diagram: &CostDiagram) -> Vec<Advantage> {
+    let Some(paper) = diagram.settings.iter().find(|s| Some(&s.name) == diagram.paper_like.as_ref()) else {
+        return Vec::new();
+    };
+    let mut errors: Vec<f64> = diagram.claimed.iter().copied().chain(TARGETS).collect();
+    errors.sort_by(|a, b| b.total_cmp(a));
+    errors.dedup();
+    errors.into_iter().filter_map(|error| at(diagram, paper, error)).collect()
+}
+
+fn at(diagram: &CostDiagram, paper: &CostSetting, error: f64) -> Option<Advantage> {
+    // A setting without particles answers another question.
+    let coupled = |s: &&CostSetting| s.points.iter().any(|p| p.particles > 0);
+    let others = diagram.settings.iter().filter(|s| s.name != paper.name).filter(coupled);
+    let costs = others.filter_map(|s| Some((s, cost_of(s, error, Cost::Work)?)));
+    let (setting, _) = costs.min_by(|(_, a), (_, b)| a.0.total_cmp(&b.0))?;
+    let (times_less_work, work_at_least) = ratio(paper, setting, error, Cost::Work)?;
+    let (times_less_seconds, seconds_at_least) = ratio(paper, setting, error, Cost::Seconds)?;
+    Some(Advantage {
+        error,
+        claimed: diagram.claimed.contains(&error),
+        setting: setting.name.clone(),
+        times_less_work,
+        work_at_least,
+        times_less_seconds,
+        seconds_at_least,
+    })
+}
+
+/// Cost of a setting that gets there, and whether it is at most that.
+fn cost_of(setting: &CostSetting, error: f64, cost: Cost) -> Option<(f64, bool)> {
+    match reached(setting, error, cost)? {
+        Reached::At(c) => Some((c, false)),
+        Reached::AtMost(c) => Some((c, true)),
+        Reached::MoreThan(_) => None,
+    }
+}
+
+/// Cost of the paper-like setting over that of another one, and whether it is at least that. Where the paper-like setting is
+/// good enough at its coarsest level its cost is known from above only, and that level's cost is taken: a comparison of the two
+/// as measured.
+fn ratio(paper: &CostSetting, other: &CostSetting, error: f64, cost: Cost) -> Option<(f64, bool)> {
+    let (own, at_most) = cost_of(other, error, cost)?;
+    Some(match reached(paper, error, cost)? {
+        Reached::At(theirs) => (theirs / own, at_most),
+        Reached::AtMost(theirs) => (theirs / own, false),
+        Reached::MoreThan(theirs) => (theirs / own, true),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use seam_cases::result::CostPoint;
+    use seam_solver::work::Work;
+
+    fn setting(name: &str, particles: usize, points: &[(f64, u64)]) -> CostSetting {
+        let point = |&(error, work): &(f64, u64)| CostPoint {
+            error: Some(error),
+            particles,
+            work: Work { bond_updates: work, ..Work::default() },
+            seconds: work as f64,
+            ..CostPoint::default()
+        };
+        CostSetting { name: name.to_owned(), points: points.iter().map(point).collect() }
+    }
+
+    #[test]
+    fn costs_are_compared_at_the_same_accuracy() {
+        let diagram = CostDiagram {
+            claimed: vec![0.02],
+            paper_like: Some("paper-like".to_owned()),
+            settings: vec![
+                setting("paper-like", 9, &[(0.1, 100), (0.01, 1000)]),
+                setting("improved", 9, &[(0.03, 10), (0.003, 100)]),
+                setting("no particles", 0, &[(0.001, 1)]),
+            ],
+            ..CostDiagram::default()
+        };
+        let all = advantages(&diagram);
+        let of = |error: f64| all.iter().find(|a| a.error == error).unwrap();
+        let claimed = of(0.02);
+        // 500 against 15: both errors fall as one over the cost.
+        assert!((claimed.times_less_work - 500.0 / 15.0).abs() < 1e-9 && !claimed.work_at_least);
+        assert!(claimed.claimed && claimed.setting == "improved");
+        // 5 %: the improved setting starts better than that, so the ratio is a lower bound.
+        assert!(of(0.05).work_at_least && (of(0.05).times_less_work - 20.0).abs() < 1e-9);
+        assert_eq!(all.iter().filter(|a| a.error == 0.001).count(), 0, "nobody with particles gets there");
+    }
+}
