@@ -1,5 +1,13 @@
 //! The words of the command line.
 
+mod gate;
+mod select;
+mod user;
+
+pub use gate::{Against, Bless, Records, Selftest};
+pub use select::{Choice, Filter};
+pub use user::{Completions, New, Schema, Text};
+
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
@@ -40,12 +48,24 @@ pub enum Verb {
     /// Study cases beyond their run: what accuracy costs, which effects they call for
     #[command(subcommand)]
     Study(Study),
-    /// Judge the results of a run: table, results.json, exit code
+    /// Judge the results of a run: table, results.json, junit.xml, summary.md, exit code
     Check(Check),
+    /// Show what accepting a run changes in the recorded verdicts, values and work; accept it
+    Bless(Bless),
+    /// Compare with another commit: results, counted work, and wall time in turns
+    Gate(Against),
+    /// Seed defects and see that each turns the gate red
+    Selftest(Selftest),
     /// Write the report page from the results of a run
     Report(Report),
     /// Write the network or mesh of a case for another code
     Export(Export),
+    /// Write a scene of your own to begin with
+    New(New),
+    /// Print a JSON schema, for editors and other programs
+    Schema(Schema),
+    /// Print the completions of a shell
+    Completions(Completions),
     /// Outputs of other codes: what there is, whether it is whole, make it again, race the codes
     #[command(subcommand)]
     References(References),
@@ -60,9 +80,15 @@ pub struct Validate {
     /// How the cases are run
     #[command(flatten)]
     pub running: Running,
+    /// Which cases
+    #[command(flatten)]
+    pub choice: Choice,
     /// What is judged beside
     #[command(flatten)]
     pub references: ReferencesFolder,
+    /// What is compared with
+    #[command(flatten)]
+    pub records: Records,
     /// Treat an undetermined own claim as a failure (exit code 5)
     #[arg(long)]
     pub strict: bool,
@@ -77,7 +103,7 @@ pub struct ReferencesFolder {
 }
 
 /// Options of everything that runs cases.
-#[derive(Debug, Args)]
+#[derive(Debug, Clone, Copy, Args)]
 pub struct Running {
     /// How much is run
     #[arg(long, value_enum, default_value_t = Tier::Quick)]
@@ -105,6 +131,15 @@ pub enum Tier {
 /// `seam list`
 #[derive(Debug, Args)]
 pub struct List {
+    /// Ids; the whole catalogue if none is given
+    #[arg(value_name = "ID")]
+    pub cases: Vec<String>,
+    /// Which cases
+    #[command(flatten)]
+    pub filter: Filter,
+    /// Only cases of this tier
+    #[arg(long, value_enum)]
+    pub tier: Option<Tier>,
     /// As JSON: id, title, tags, tiers, effects, claims, threads, mem_mb, minutes
     #[arg(long)]
     pub json: bool,
@@ -129,9 +164,18 @@ pub struct Run {
     /// Folder for results
     #[arg(long, value_name = "DIR", default_value = "out")]
     pub out: PathBuf,
+    /// Which cases
+    #[command(flatten)]
+    pub choice: Choice,
     /// How the cases are run
     #[command(flatten)]
     pub running: Running,
+    /// Keep the scene's own run in time after every N outputs, in ID.checkpoint in the folder for results
+    #[arg(long, value_name = "N")]
+    pub checkpoint_every: Option<NonZeroUsize>,
+    /// Go on from a checkpoint of the same scene
+    #[arg(long, value_name = "FILE")]
+    pub restart: Option<PathBuf>,
 }
 
 /// `seam study`
@@ -141,6 +185,8 @@ pub enum Study {
     Cost(Cost),
     /// Each effect on and off: what it changes, what it costs, and whether the scene calls for it
     Effects(Studied),
+    /// Margins of the hard cases; of a scene the digits that survive rounding, its longest step, its drift of energy
+    Stability(Stability),
     /// One run of a scene and the memory it takes
     #[command(hide = true)]
     Alone(Alone),
@@ -165,6 +211,23 @@ pub struct Alone {
     /// Set a key of the scene
     #[arg(long = "set")]
     pub overrides: Vec<String>,
+}
+
+/// `seam study stability`
+#[derive(Debug, Args)]
+pub struct Stability {
+    /// Ids of the catalogue or paths of scene files; the hard cases if none is given
+    #[arg(value_name = "ID|SCENE.toml")]
+    pub cases: Vec<String>,
+    /// Set a key of the scene, e.g. --set parameters.rows=16
+    #[arg(long = "set", value_name = "KEY.PATH=VALUE")]
+    pub overrides: Vec<String>,
+    /// Folder for results; a study lies beside the run of its case
+    #[arg(long, value_name = "DIR", default_value = "out")]
+    pub out: PathBuf,
+    /// How the cases are run
+    #[command(flatten)]
+    pub running: Running,
 }
 
 /// What a study is of.
@@ -215,9 +278,24 @@ pub enum Code {
 /// `seam check`
 #[derive(Debug, Args)]
 pub struct Check {
+    /// Ids; every result that is there if none is given
+    #[arg(value_name = "ID")]
+    pub cases: Vec<String>,
     /// Folder with the results of a run
     #[arg(long, value_name = "DIR", default_value = "out")]
     pub from: PathBuf,
+    /// Which cases
+    #[command(flatten)]
+    pub filter: Filter,
+    /// Only results of this tier
+    #[arg(long, value_enum)]
+    pub tier: Option<Tier>,
+    /// Compare with the results.json of another run; its red is added to the exit code
+    #[arg(long, value_name = "FILE")]
+    pub baseline: Option<PathBuf>,
+    /// What is compared with
+    #[command(flatten)]
+    pub records: Records,
     /// What is judged beside
     #[command(flatten)]
     pub references: ReferencesFolder,
@@ -238,6 +316,9 @@ pub struct Report {
     /// What is judged beside
     #[command(flatten)]
     pub references: ReferencesFolder,
+    /// What is compared with
+    #[command(flatten)]
+    pub records: Records,
 }
 
 /// `seam references`

@@ -8,6 +8,8 @@ mod provenance;
 mod references;
 mod results;
 mod running;
+mod select;
+mod selftest;
 mod verbs;
 
 use args::{Command, Verb};
@@ -25,6 +27,12 @@ fn main() -> ExitCode {
         Verb::Study(words) => verbs::study(&words),
         Verb::Check(words) => verbs::check(&words),
         Verb::Report(words) => verbs::report(&words),
+        Verb::Bless(words) => verbs::bless(&words),
+        Verb::Gate(words) => verbs::gate(&words),
+        Verb::Selftest(words) => verbs::selftest(&words),
+        Verb::New(words) => verbs::new(&words),
+        Verb::Schema(words) => verbs::schema(&words),
+        Verb::Completions(words) => verbs::completions(&words),
         Verb::Export(words) => verbs::export(&words),
         Verb::References(words) => verbs::references(&words),
     };

@@ -1,5 +1,6 @@
 //! From the folders of a run to judged results.
 
+use crate::args::Records;
 use crate::provenance;
 use anyhow::Result;
 use seam_cases::result::CaseResult;
@@ -92,7 +93,15 @@ pub fn read(file: &Path) -> Result<CaseResult> {
     Ok(serde_json::from_str(&text).map_err(|e| unreadable(&e))?)
 }
 
-/// Judges cases, beside references of these hashes, and compares the verdicts with the recorded ones.
-pub fn judged(cases: &[CaseResult], references: BTreeMap<String, String>) -> Result<Results> {
-    Ok(judge(cases, provenance::here(references), &Recorded::project()?))
+/// Judges cases, beside references of these hashes, and compares the verdicts with recorded ones.
+pub fn judged(cases: &[CaseResult], references: BTreeMap<String, String>, recorded: &Recorded) -> Results {
+    judge(cases, provenance::here(references), recorded)
+}
+
+/// The built-in records, or those of a file.
+pub fn recorded(words: &Records) -> Result<Recorded> {
+    Ok(match &words.recorded {
+        Some(file) => Recorded::load(file)?,
+        None => Recorded::project()?,
+    })
 }

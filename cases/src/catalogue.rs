@@ -22,7 +22,7 @@ pub struct Entry {
     pub tags: Vec<String>,
     /// When it runs.
     pub tiers: Vec<Tier>,
-    /// Effects it simulates.
+    /// Effects it simulates, as far as its text tells.
     pub effects: Vec<String>,
     /// Ids of the claims it answers.
     pub claims: Vec<String>,
@@ -77,7 +77,7 @@ pub fn entry(file: &SceneFile) -> Entry {
         title: scene.title.clone(),
         tags: scene.tags.clone(),
         tiers: scene.tiers.clone(),
-        effects: scene.effects.clone(),
+        effects: scene.simulated_effects(),
         claims: scene.claims.keys().cloned().collect(),
         threads: scene.needs.threads,
         mem_mb: scene.needs.mem_mb,

@@ -28,6 +28,14 @@ pub enum Error {
         /// What the system says.
         source: std::io::Error,
     },
+    /// A checkpoint from which this case cannot go on.
+    #[error("{path}: {message}")]
+    Checkpoint {
+        /// The file.
+        path: String,
+        /// What is wrong and what to do.
+        message: String,
+    },
     /// There is no such case.
     #[error("there is no case '{id}'; {hint}")]
     UnknownCase {

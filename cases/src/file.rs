@@ -1,5 +1,6 @@
 //! A scene with its text, its folder and the values of its parameters.
 
+use crate::defect::Defect;
 use crate::error::{Error, Fault, Result};
 use crate::expression::Values;
 use crate::folder::Folder;
@@ -21,6 +22,8 @@ pub struct SceneFile {
     /// Where its own files are.
     pub folder: Folder,
     source: Source,
+    /// What is wrong with it on purpose.
+    pub(crate) defect: Option<Defect>,
 }
 
 impl SceneFile {
@@ -55,7 +58,7 @@ impl SceneFile {
         scene.apply_effects().map_err(|fault| source.error(fault))?;
         let values = scene.values().map_err(|fault| source.error(fault))?;
         check::check(&scene, &values).map_err(|fault| source.error(fault))?;
-        Ok(Self { scene, values, folder, source })
+        Ok(Self { scene, values, folder, source, defect: None })
     }
 
     /// The same scene with some keys set to other values, on top of earlier changes.
@@ -65,6 +68,7 @@ impl SceneFile {
     pub fn with(&self, changes: &[Override]) -> Result<Self> {
         let mut changed = Self::read(&self.source.file, &self.source.text, self.folder.clone(), changes)?;
         let earlier = self.source.overrides.iter().cloned();
+        changed.defect = self.defect;
         changed.source.overrides = earlier.chain(changes.iter().map(Override::text)).collect();
         Ok(changed)
     }

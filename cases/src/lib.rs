@@ -3,6 +3,8 @@
 //! The road: scene file → model → solution → observation → [`result::CaseResult`].
 
 pub mod catalogue;
+pub mod checkpoint;
+pub mod defect;
 pub mod error;
 pub mod export;
 pub mod expression;

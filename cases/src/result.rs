@@ -78,6 +78,9 @@ pub struct CaseResult {
     pub seconds: f64,
     /// Things a reader must know (dropped constraint rows …).
     pub notes: Vec<String>,
+    /// Quantities that are known to fail, by id, each with the reason.
+    #[serde(default)]
+    pub expected_failures: BTreeMap<String, String>,
 }
 
 impl CaseResult {

@@ -273,6 +273,45 @@ fn other_steppings_come_to_the_same_deflection() {
     assert!(off.abs() < 0.1, "{off}");
 }
 
+/// What damps takes energy out, and the balance knows how much.
+#[test]
+fn hht_and_both_kinds_of_damping_are_reached_from_scenes() {
+    let explicit = ["dynamics.stepping=explicit", "dynamics.step_share=0.8", "dynamics.step_s=none"];
+    let local = [&explicit[..], &["dynamics.damping={ share = 0.1 }"]].concat();
+    for (changes, lossy, damped) in [
+        (&[][..], false, false),
+        (&["dynamics.alpha=-0.2"], true, false),
+        (&["dynamics.damping={ ratio = 0.05, period_s = \"period_s\" }"], true, true),
+        (&local, true, true),
+    ] {
+        let result = run(changes);
+        let loss = plot(&result, "energy-balance").series.iter().find(|s| s.name == "damping").unwrap();
+        let loss = *loss.y.last().unwrap();
+        assert!(if lossy { loss < 0.0 } else { loss == 0.0 }, "{changes:?} {loss:e}");
+        assert!(value(&result, "closure") < 1e-8, "{changes:?} {:e}", value(&result, "closure"));
+        let damping = result.effects.iter().find(|e| e.name == "damping").unwrap();
+        assert_eq!((damping.on, damping.counter > 0), (damped, damped), "{changes:?} {}", damping.why);
+    }
+}
+
+#[test]
+fn curves_of_other_settings_are_drawn_beside() {
+    let beside = ["probes.tip.beside={ \"eight rows\" = [\"finer\"] }"];
+    let file = read(BEAM, &beside).unwrap();
+    let result = seam_cases::procedures::run(&file, Tier::Quick).unwrap().result;
+    let other = plot(&result, "tip").series.iter().find(|s| s.name == "eight rows").unwrap();
+    let finer = run(&["parameters.rows=8"]);
+    assert_eq!(other.y, own(&finer, "tip").y);
+    assert_ne!(other.y, own(&result, "tip").y);
+    for (change, expected) in [
+        ("probes.tip.beside={ a = [\"fner\"] }", "did you mean 'finer'?"),
+        ("probes.left-end.beside={ a = [\"finer\"] }", "no curve to draw beside"),
+    ] {
+        let message = read(BEAM, &[change]).unwrap_err();
+        assert!(message.contains(expected), "{message}");
+    }
+}
+
 #[test]
 fn studies_work_on_histories() {
     let result = run(&[]);

@@ -1,11 +1,12 @@
 //! Exit codes: what went wrong, the most severe first.
 
 use crate::record::RecordState;
-use crate::results::{CaseJudgement, ClaimResult, Results};
+use crate::results::{CaseJudgement, ClaimResult, QuantityResult, Results};
 use crate::verdict::{ClaimVerdict, Verdict};
 
 /// Exit code of the command.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[repr(u8)]
 pub enum Exit {
     /// Everything that was promised holds.
     Pass = 0,
@@ -19,6 +20,26 @@ pub enum Exit {
     Unmeasured = 4,
     /// An own claim is undetermined, under `--strict`.
     Undetermined = 5,
+}
+
+impl Exit {
+    /// Place in the order of severity: 2, which is no verdict at all, before 4, 1, 3, 5 and 0.
+    fn severity(self) -> u8 {
+        match self {
+            Exit::Pass => 0,
+            Exit::Undetermined => 1,
+            Exit::Cost => 2,
+            Exit::Failed => 3,
+            Exit::Unmeasured => 4,
+            Exit::Usage => 5,
+        }
+    }
+
+    /// The more severe of two.
+    #[must_use]
+    pub fn or(self, other: Exit) -> Exit {
+        if other.severity() > self.severity() { other } else { self }
+    }
 }
 
 impl Results {
@@ -63,24 +84,45 @@ impl CaseJudgement {
             || self.timed.iter().any(|t| t.seconds_verdict == Verdict::Undetermined)
     }
 
-    /// Whether a number, a curve, a margin, a claim or an ablation failed, or the result is not trusted.
+    /// Whether a number, a curve, a margin, a claim or an ablation failed, one that should have failed did not, a tolerance
+    /// is looser than recorded, or the result is not trusted.
     pub fn failed(&self) -> bool {
         !self.trusted
             || self.ablations.iter().any(|a| a.verdict == Some(Verdict::Fail))
             || self.timed.iter().any(|t| t.seconds_verdict == Verdict::Fail)
-            || self.quantities.iter().any(|q| q.verdict == Some(Verdict::Fail))
+            || self.quantities.iter().any(|q| q.failed() || q.passes_again())
             || self.curves.iter().any(|c| c.verdict == Verdict::Fail)
             || self.margins.iter().any(|m| m.verdict == Verdict::Fail)
             || self.claims.iter().any(ClaimResult::failed)
+            || !self.loosened.is_empty()
+            || !self.expected_in_vain.is_empty()
     }
 
     /// Whether the case did more work than recorded for the same scene.
     pub fn costs_more(&self) -> bool {
-        self.recorded_work.is_some_and(|recorded| self.work.total() > recorded)
+        let [more, _] = self.work_changes();
+        !more.is_empty()
+    }
+
+    /// Whether anything keeps the gate from being green.
+    pub fn is_red(&self, strict: bool) -> bool {
+        self.unmeasured() || self.failed() || self.costs_more() || (strict && self.own_undetermined())
     }
 
     fn own_undetermined(&self) -> bool {
         self.claims.iter().any(|c| c.own && c.verdict == ClaimVerdict::Undetermined)
+    }
+}
+
+impl QuantityResult {
+    /// Whether it is outside of its interval, and nobody knew.
+    pub fn failed(&self) -> bool {
+        self.verdict == Some(Verdict::Fail) && self.expected_failure.is_none()
+    }
+
+    /// Whether it was said to fail and passes.
+    pub fn passes_again(&self) -> bool {
+        self.verdict == Some(Verdict::Pass) && self.expected_failure.is_some()
     }
 }
 
@@ -93,5 +135,21 @@ impl ClaimResult {
         } else {
             matches!(self.record, RecordState::Changed | RecordState::OtherFamily)
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Exit::{Cost, Failed, Pass, Undetermined, Unmeasured, Usage};
+
+    #[test]
+    fn the_most_severe_counts_in_either_order() {
+        let order = [Usage, Unmeasured, Failed, Cost, Undetermined, Pass];
+        for (k, worse) in order.iter().enumerate() {
+            for milder in &order[k..] {
+                assert_eq!((worse.or(*milder), milder.or(*worse)), (*worse, *worse));
+            }
+        }
+        assert_eq!(order.map(|exit| exit as u8), [2, 4, 1, 3, 5, 0]);
     }
 }

@@ -1,8 +1,10 @@
 //! Failures in words, the same for every view.
 
 use crate::ablation::AblationJudgement;
+use crate::counted::Counter;
 use crate::format::{self, percent, share, with_unit};
 use crate::growth::TimedGrowth;
+use crate::loosened::Loosened;
 use crate::margins::MarginResult;
 use crate::record::RecordState;
 use crate::results::{CaseJudgement, ClaimResult, CurveResult, QuantityResult, Results};
@@ -12,7 +14,7 @@ use seam_cases::result::{EffectUse, Expected};
 /// One thing that keeps the gate from being green.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Failure {
-    /// `FAILED`, `NOT MEASURED` or `COSTS MORE`.
+    /// [`FAILED`], [`NOT_MEASURED`], [`COSTS_MORE`], [`LOOSENED`] or [`PASSES_AGAIN`].
     pub class: &'static str,
     /// Case, and the quantity, curve or claim within it.
     pub place: String,
@@ -26,17 +28,27 @@ pub struct Failure {
     pub rerun: String,
 }
 
-const FAILED: &str = "FAILED";
-const NOT_TRUSTED: &str = "NOT TRUSTED";
-const NOT_MEASURED: &str = "NOT MEASURED";
-const COSTS_MORE: &str = "COSTS MORE";
+/// Outside of what was promised.
+pub const FAILED: &str = "FAILED";
+/// An effect that the scene calls for was left out.
+pub const NOT_TRUSTED: &str = "NOT TRUSTED";
+/// Nothing that could be judged.
+pub const NOT_MEASURED: &str = "NOT MEASURED";
+/// More counted work than recorded.
+pub const COSTS_MORE: &str = "COSTS MORE";
+/// A tolerance wider than recorded.
+pub const LOOSENED: &str = "LOOSENED";
+/// An expected failure that is none.
+pub const PASSES_AGAIN: &str = "PASSES AGAIN";
 
-/// Every failure, in the order of the cases.
+/// Every failure: loosened tolerances first, since they change what all else means; then in the order of the cases.
 pub fn failures(results: &Results) -> Vec<Failure> {
-    results.cases.iter().flat_map(of_case).collect()
+    let loosened = results.cases.iter().flat_map(|case| case.loosened.iter().map(|l| of_loosened(case, l)));
+    loosened.chain(results.cases.iter().flat_map(of_case)).collect()
 }
 
-fn of_case(case: &CaseJudgement) -> Vec<Failure> {
+/// The failures of one case, apart from loosened tolerances.
+pub fn of_case(case: &CaseJudgement) -> Vec<Failure> {
     let quantities = case.quantities.iter().filter_map(|q| of_quantity(case, q));
     let curves = case.curves.iter().filter_map(|c| of_curve(case, c));
     let claims = case.claims.iter().filter_map(|c| of_claim(case, c));
@@ -44,9 +56,10 @@ fn of_case(case: &CaseJudgement) -> Vec<Failure> {
     let effects = case.effects.iter().filter_map(|e| of_effect(case, e));
     let ablations = case.ablations.iter().filter_map(|a| of_ablation(case, a));
     let timed = case.timed.iter().filter_map(|t| of_timed(case, t));
-    let studies = margins.chain(effects).chain(ablations).chain(timed);
-    let all: Vec<Failure> =
-        quantities.chain(curves).chain(claims).chain(studies).chain(of_cost(case)).collect();
+    let in_vain = case.expected_in_vain.iter().map(|id| of_expected(case, id));
+    let judged = quantities.chain(curves).chain(margins).chain(claims);
+    let studies = effects.chain(ablations).chain(timed);
+    let all: Vec<Failure> = judged.chain(studies).chain(in_vain).chain(of_cost(case)).collect();
     if all.is_empty() && case.unmeasured() {
         return vec![of_empty(case)];
     }
@@ -62,7 +75,15 @@ fn failure(case: &CaseJudgement, class: &'static str, item: &str) -> Failure {
 fn of_quantity(case: &CaseJudgement, q: &QuantityResult) -> Option<Failure> {
     let bound = interval(q).map_or("a finite number".to_owned(), |i| format!("{i}: {}", q.why));
     match (q.verdict, q.value) {
-        (Some(Verdict::Fail), Some(value)) => Some(Failure {
+        (Some(Verdict::Pass), Some(value)) if q.passes_again() => Some(Failure {
+            measured: format!("{} ({})", with_unit(value, &q.unit), q.label),
+            bound: format!("a failure was expected: {}", q.expected_failure.as_deref().unwrap_or_default()),
+            meaning:
+                "good news: take it out of `expected_failures` of the scene, so that it is guarded again"
+                    .to_owned(),
+            ..failure(case, PASSES_AGAIN, &q.id)
+        }),
+        (Some(Verdict::Fail), Some(value)) if q.failed() => Some(Failure {
             measured: format!("{} ({})", with_unit(value, &q.unit), q.label),
             bound,
             meaning: outside(q),
@@ -210,14 +231,42 @@ fn of_timed(case: &CaseJudgement, t: &TimedGrowth) -> Option<Failure> {
 }
 
 fn of_cost(case: &CaseJudgement) -> Option<Failure> {
-    let recorded = case.recorded_work.filter(|_| case.costs_more())?;
-    let now = case.work.total();
+    let [more, _] = case.work_changes();
+    let first = more.first()?;
+    let each = |say: fn(&Counter) -> String| more.iter().map(say).collect::<Vec<_>>().join(", ");
+    let meaning = match first.was {
+        0 => "work that was not done before".to_owned(),
+        was => format!(
+            "{} more {} for the same answer",
+            percent(first.now as f64 / was as f64 - 1.0),
+            first.words()
+        ),
+    };
     Some(Failure {
-        measured: format!("{now} units of counted work"),
-        bound: format!("{recorded}, recorded for the same scene"),
-        meaning: format!("{} more work for the same answer", percent(now as f64 / recorded as f64 - 1.0)),
+        measured: each(|c| format!("{} {}", c.now, c.words())),
+        bound: format!("{}, recorded for the same scene", each(|c| format!("{} {}", c.was, c.words()))),
+        meaning,
         ..failure(case, COSTS_MORE, "work")
     })
+}
+
+fn of_loosened(case: &CaseJudgement, l: &Loosened) -> Failure {
+    Failure {
+        measured: format!("accepted now: {}", l.say_now()),
+        bound: format!("recorded: {}", l.say(l.was)),
+        meaning: "a wider tolerance hides what it was to find; accept it only with a reason, by seam bless"
+            .to_owned(),
+        ..failure(case, LOOSENED, &l.quantity)
+    }
+}
+
+fn of_expected(case: &CaseJudgement, id: &str) -> Failure {
+    Failure {
+        measured: "nothing that is judged".to_owned(),
+        bound: "a failure was expected".to_owned(),
+        meaning: "`expected_failures` of the scene names what is not there; correct or remove it".to_owned(),
+        ..failure(case, FAILED, id)
+    }
 }
 
 fn of_empty(case: &CaseJudgement) -> Failure {

@@ -1,6 +1,7 @@
 //! From measured results to judged ones.
 
 use crate::compare::{CurveComparison, LEAST_COVERAGE, Tolerance, compare_curves, headroom, signed_error};
+use crate::loosened;
 use crate::margins;
 use crate::record::{self, Recorded};
 use crate::results::{CaseJudgement, ClaimResult, CurveResult, Provenance, QuantityResult, Results, SCHEMA};
@@ -19,10 +20,20 @@ pub fn judge(cases: &[CaseResult], provenance: Provenance, recorded: &Recorded) 
     }
 }
 
-fn judge_case(case: &CaseResult, recorded: &Recorded) -> CaseJudgement {
+/// Judges every number, curve and claim of one case.
+pub fn judge_case(case: &CaseResult, recorded: &Recorded) -> CaseJudgement {
     let orders = case.convergence.iter().filter_map(order_of);
     let growths = case.growths.iter().map(growth::of_work);
     let observed = case.quantities.iter().cloned().chain(orders).chain(growths);
+    let quantities: Vec<QuantityResult> = observed
+        .map(|o| {
+            let last = recorded.value(&case.tier, &case.id, &o.id);
+            let known = case.expected_failures.get(&o.id).cloned();
+            QuantityResult { expected_failure: known, ..judge_quantity(o, last) }
+        })
+        .collect();
+    let judged = |id: &&String| quantities.iter().any(|q| q.id == **id && q.verdict.is_some());
+    let work = recorded.work(&case.tier, &case.id, &case.scene_hash);
     CaseJudgement {
         id: case.id.clone(),
         title: case.title.clone(),
@@ -30,12 +41,10 @@ fn judge_case(case: &CaseResult, recorded: &Recorded) -> CaseJudgement {
         scene_hash: case.scene_hash.clone(),
         command: case.command.clone(),
         effects: case.effects.clone(),
-        quantities: observed
-            .map(|o| {
-                let last = recorded.value(&case.tier, &case.id, &o.id);
-                judge_quantity(o, last)
-            })
-            .collect(),
+        expected_in_vain: case.expected_failures.keys().filter(|id| !judged(id)).cloned().collect(),
+        loosened: loosened::loosened(recorded.tolerances(&case.tier, &case.id), &quantities),
+        tags: case.tags.clone(),
+        quantities,
         curves: case.curves.iter().flat_map(judge_curves).collect(),
         claims: claims_in_order(case, recorded),
         margins: case
@@ -48,7 +57,8 @@ fn judge_case(case: &CaseResult, recorded: &Recorded) -> CaseJudgement {
         timed: case.growths.iter().filter_map(growth::of_seconds).collect(),
         ablations: case.ablations.iter().map(ablation::judge).collect(),
         work: case.work,
-        recorded_work: recorded.work(&case.tier, &case.id, &case.scene_hash),
+        recorded_work: work.map(|w| w.total),
+        recorded_counters: work.map_or_else(Default::default, |w| w.counters.clone()),
         seconds: case.seconds,
     }
 }
@@ -74,6 +84,7 @@ fn judge_quantity(o: Observation, last: Option<f64>) -> QuantityResult {
         u_ref: finite(o.u_ref),
         accepted: o.accepted.map(|ends| ends.map(finite)),
         why: o.why,
+        expected_failure: None,
     }
 }
 

@@ -6,9 +6,12 @@
 
 pub mod ablation;
 pub mod activity;
+pub mod baseline;
+pub mod bless;
 pub mod claims;
 pub mod compare;
 pub mod cost;
+pub mod counted;
 pub mod csv;
 pub mod exit;
 pub mod failure;
@@ -16,6 +19,8 @@ pub mod format;
 pub mod growth;
 pub mod html;
 pub mod judge;
+pub mod junit;
+pub mod loosened;
 pub mod margins;
 pub mod markdown;
 pub mod plots;

@@ -5,6 +5,7 @@
 
 use crate::results::Results;
 use crate::verdict::ClaimVerdict;
+use crate::{counted, loosened};
 use schemars::JsonSchema;
 use seam_cases::result::Family;
 use serde::{Deserialize, Serialize};
@@ -36,6 +37,9 @@ pub struct Recorded {
     /// Values of quantities, by case and quantity.
     #[serde(default)]
     pub values: PerTier<BTreeMap<String, f64>>,
+    /// Widths of accepted intervals ([`loosened::width`]), by case and quantity.
+    #[serde(default)]
+    pub tolerances: PerTier<BTreeMap<String, f64>>,
     /// Margins of hard cases, by case and margin.
     #[serde(default)]
     pub margins: PerTier<BTreeMap<String, f64>>,
@@ -61,6 +65,9 @@ pub struct RecordedWork {
     pub scene: String,
     /// `Work::total`.
     pub total: u64,
+    /// Each counter by its name.
+    #[serde(default)]
+    pub counters: BTreeMap<String, u64>,
 }
 
 /// How a verdict relates to the recorded one.
@@ -138,10 +145,14 @@ impl Recorded {
         let mut new = self.clone();
         SCHEMA.clone_into(&mut new.schema);
         for case in &results.cases {
-            let work = RecordedWork { scene: case.scene_hash.clone(), total: case.work.total() };
+            let counters = counted::counters(&case.work);
+            let work = RecordedWork { scene: case.scene_hash.clone(), total: case.work.total(), counters };
             new.work.entry(case.tier.clone()).or_default().insert(case.id.clone(), work);
             let values = case.quantities.iter().filter_map(|q| Some((q.id.clone(), q.value?))).collect();
             new.values.entry(case.tier.clone()).or_default().insert(case.id.clone(), values);
+            let judged = case.quantities.iter();
+            let widths = judged.filter_map(|q| Some((q.id.clone(), loosened::width(q)?))).collect();
+            new.tolerances.entry(case.tier.clone()).or_default().insert(case.id.clone(), widths);
             let margins: BTreeMap<_, _> =
                 case.margins.iter().filter_map(|m| Some((m.id.clone(), m.value?))).collect();
             if !margins.is_empty() {
@@ -179,8 +190,13 @@ impl Recorded {
     }
 
     /// Recorded work of a case, if it is of the same scene.
-    pub fn work(&self, tier: &str, case: &str, scene: &str) -> Option<u64> {
-        self.work.get(tier)?.get(case).filter(|w| w.scene == scene).map(|w| w.total)
+    pub fn work(&self, tier: &str, case: &str, scene: &str) -> Option<&RecordedWork> {
+        self.work.get(tier)?.get(case).filter(|w| w.scene == scene)
+    }
+
+    /// Recorded widths of the accepted intervals of a case, by quantity.
+    pub fn tolerances(&self, tier: &str, case: &str) -> Option<&BTreeMap<String, f64>> {
+        self.tolerances.get(tier)?.get(case)
     }
 }
 

@@ -6,6 +6,7 @@ use crate::claims::decides::AxisEffect;
 use crate::claims::particles::Needed;
 use crate::cost::CostJudgement;
 use crate::growth::TimedGrowth;
+use crate::loosened::Loosened;
 use crate::margins::MarginResult;
 use crate::record::{RecordState, RecordedClaim};
 use crate::verdict::{ClaimVerdict, Verdict};
@@ -100,6 +101,18 @@ pub struct CaseJudgement {
     pub work: Work,
     /// Recorded work of the same scene (`Work::total`), where there is one.
     pub recorded_work: Option<u64>,
+    /// Recorded counters of the same scene, by name as in `work`.
+    #[serde(default)]
+    pub recorded_counters: BTreeMap<String, u64>,
+    /// Tolerances that are wider than recorded, or gone.
+    #[serde(default)]
+    pub loosened: Vec<Loosened>,
+    /// Ids whose failure the scene expects and that it does not measure.
+    #[serde(default)]
+    pub expected_in_vain: Vec<String>,
+    /// Words to filter by.
+    #[serde(default)]
+    pub tags: Vec<String>,
     /// Wall time in seconds. Not deterministic.
     pub seconds: f64,
 }
@@ -138,6 +151,9 @@ pub struct QuantityResult {
     pub regression: Option<f64>,
     /// The verdict; `null` where nothing is promised.
     pub verdict: Option<Verdict>,
+    /// Why it is known to fail, if it is.
+    #[serde(default)]
+    pub expected_failure: Option<String>,
 }
 
 /// A curve compared with the reference of its plot.

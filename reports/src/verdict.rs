@@ -32,11 +32,11 @@ pub enum ClaimVerdict {
     Undetermined,
 }
 
-/// Verdict on a measured value: NaN, or an accepted interval with a NaN end, is never a pass and
-/// never a mere failure, it is a failure to measure. `None` where nothing was promised.
+/// Verdict on a measured value: NaN, or an accepted interval that is not closed on both sides, is never
+/// a pass and never a mere failure, it is a failure to measure. `None` where nothing was promised.
 pub fn of_quantity(value: f64, accepted: Option<[f64; 2]>) -> Option<Verdict> {
     let interval = accepted?;
-    Some(if !value.is_finite() || interval.iter().any(|end| end.is_nan()) {
+    Some(if !value.is_finite() || interval.iter().any(|end| !end.is_finite()) {
         Verdict::Undetermined
     } else if within(value, interval) {
         Verdict::Pass
@@ -77,7 +77,9 @@ mod tests {
         assert_eq!(of_quantity(0.9, interval), Some(Verdict::Fail));
         assert_eq!(of_quantity(2.1, interval), Some(Verdict::Fail));
         assert_eq!(of_quantity(f64::NAN, interval), Some(Verdict::Undetermined));
-        assert_eq!(of_quantity(1.5, Some([f64::NAN, 2.0])), Some(Verdict::Undetermined));
+        for open in [f64::NAN, f64::NEG_INFINITY] {
+            assert_eq!(of_quantity(1.5, Some([open, 2.0])), Some(Verdict::Undetermined), "one-sided");
+        }
         assert_eq!(of_quantity(f64::NAN, None), None);
     }
 }

@@ -148,6 +148,12 @@ pub enum Error {
         /// The element or bond that sets it.
         what: String,
     },
+    /// Bytes from which a run cannot go on.
+    #[error("checkpoint: {message}")]
+    Checkpoint {
+        /// What is wrong and what to do.
+        message: String,
+    },
     /// A file that cannot be read.
     #[error("{file}{}: {message}", line.map(|l| format!(":{l}")).unwrap_or_default())]
     File {

@@ -5,6 +5,7 @@
 //! solution with its residual and its [`work::Work`] comes out.
 
 pub mod check;
+pub mod checkpoint;
 pub mod contact;
 pub mod coupling;
 pub mod cracking;

@@ -1,12 +1,14 @@
-//! `seam check`: the error table, `results.json` and the exit code.
+//! `seam check`: the error table, `results.json`, `junit.xml`, `summary.md` and the exit code.
 
 use crate::args::Check;
-use crate::{references, results};
+use crate::{references, results, select};
 use anyhow::Result;
 use seam_cases::result::CaseResult;
 use seam_reports::exit::Exit;
+use seam_reports::record::Recorded;
 use seam_reports::results::Results;
 use seam_reports::terminal::{self, Style};
+use seam_reports::{baseline, junit, markdown};
 use std::collections::BTreeMap;
 use std::io::{IsTerminal, Write};
 use std::path::Path;
@@ -14,20 +16,28 @@ use std::path::Path;
 /// Judges the results of a run.
 pub fn check(words: &Check) -> Result<Exit> {
     let references = references::verified(&words.references)?;
-    let cases = results::load(&words.from)?;
-    let judged = judge_into(&cases, references, &words.from)?;
-    print(&terminal::table(&judged, style()))?;
-    Ok(judged.exit(words.strict))
+    // Read before anything is written: the baseline may be the file that is replaced.
+    let baseline = words.baseline.as_deref().map(Results::read).transpose()?;
+    let recorded = results::recorded(&words.records)?;
+    let cases = select::results(results::load(&words.from)?, &words.cases, &words.filter, words.tier)?;
+    let judged = judge_into(&cases, references, &recorded, &words.from)?;
+    let changes = baseline.map(|baseline| baseline::compare(&baseline, &judged));
+    let changed = changes.as_deref().map_or_else(String::new, |c| terminal::changes(c, style()));
+    print(&(changed + &terminal::table(&judged, style())))?;
+    Ok(judged.exit(words.strict).or(changes.map_or(Exit::Pass, |changes| baseline::exit(&changes))))
 }
 
-/// Judges cases, beside references of these hashes, and writes `results.json`.
+/// Judges cases, beside references of these hashes, and writes `results.json` and the views that a CI service reads.
 pub fn judge_into(
     cases: &[CaseResult],
     references: BTreeMap<String, String>,
+    recorded: &Recorded,
     folder: &Path,
 ) -> Result<Results> {
-    let judged = results::judged(cases, references)?;
+    let judged = results::judged(cases, references, recorded);
     judged.write(&folder.join("results.json"))?;
+    junit::write(&judged, &folder.join("junit.xml"))?;
+    markdown::write(&judged, &folder.join("summary.md"))?;
     Ok(judged)
 }
 

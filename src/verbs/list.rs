@@ -2,13 +2,13 @@
 
 use super::check::print;
 use crate::args::List;
+use crate::select;
 use anyhow::Result;
-use seam_cases::catalogue;
 use seam_reports::exit::Exit;
 
-/// Prints the catalogue.
+/// Prints the catalogue, or the part of it that is asked for.
 pub fn list(words: &List) -> Result<Exit> {
-    let entries = catalogue::list()?;
+    let entries = select::entries(&words.cases, &words.filter, words.tier)?;
     if words.json {
         print(&format!("{}\n", serde_json::to_string_pretty(&entries)?))?;
         return Ok(Exit::Pass);

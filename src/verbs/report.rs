@@ -14,7 +14,7 @@ use std::path::Path;
 pub fn report(words: &Report) -> Result<Exit> {
     let references = references::verified(&words.references)?;
     let cases = results::load(&words.from)?;
-    let judged = judge_into(&cases, references, &words.from)?;
+    let judged = judge_into(&cases, references, &results::recorded(&words.records)?, &words.from)?;
     write(&judged, &cases, &words.from)?;
     if let Some(file) = &words.markdown {
         write_whole(file, &validation::document(&judged, &cases))?;

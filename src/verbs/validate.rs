@@ -2,11 +2,13 @@
 
 use super::check::{judge_into, print, style};
 use super::report;
-use crate::args::Validate;
+use super::run::plan;
+use crate::args::{Choice, Validate};
 use crate::results::Unmeasured;
 use crate::running::Failed;
 use crate::{message, references, results, running};
 use anyhow::Result;
+use seam_cases::checkpoint::Checkpoints;
 use seam_cases::file::SceneFile;
 use seam_cases::write::RESULT;
 use seam_reports::exit::Exit;
@@ -15,13 +17,22 @@ use seam_reports::terminal;
 /// Runs a tier of the catalogue, judges it, writes the report and prints the table.
 pub fn validate(words: &Validate) -> Result<Exit> {
     let references = references::verified(&words.references)?;
-    let files = running::scenes(&[], &[], words.running.tier)?;
-    let failed = running::run(&files, &words.out, &words.running)?;
-    // Only what has just run: other results may lie in the folder.
+    let recorded = results::recorded(&words.records)?;
+    let how = (&words.choice, &words.running, words.out.as_path());
+    let files = running::selected(&[], &[], how, &recorded)?;
+    if words.choice.dry_run {
+        print(&plan(&files))?;
+        return Ok(Exit::Pass);
+    }
+    let failed = running::run(&files, &words.out, &words.running, &|_| Checkpoints::default())?;
+    // Only what this run is about: other results may lie in the folder. With `--failed` those that are green
+    // already belong to it too.
+    let all = Choice { failed: false, ..words.choice.clone() };
+    let files = running::selected(&[], &[], (&all, &words.running, &words.out), &recorded)?;
     let has_run = |file: &&SceneFile| failed.iter().all(|f| f.id != file.scene.id);
     let read = |file: &SceneFile| results::read(&words.out.join(&file.scene.id).join(RESULT));
     let cases = files.iter().filter(has_run).map(read).collect::<Result<Vec<_>>>()?;
-    let judged = judge_into(&cases, references, &words.out)?;
+    let judged = judge_into(&cases, references, &recorded, &words.out)?;
     report::write(&judged, &cases, &words.out)?;
     print(&terminal::table(&judged, style()))?;
     if !words.running.quiet {

@@ -100,7 +100,9 @@ impl From<Error> for Refusal {
 /// # Errors
 /// A fault of the scene that only shows here, or what the solver refuses.
 pub fn build(file: &SceneFile) -> Result<Built> {
-    assemble(file).map_err(|refusal| refusal.of(file))
+    let mut built = assemble(file).map_err(|refusal| refusal.of(file))?;
+    file.spoil_model(&mut built.model);
+    Ok(built)
 }
 
 fn assemble(file: &SceneFile) -> std::result::Result<Built, Refusal> {

@@ -97,7 +97,8 @@ impl<'a> Filling<'a> {
         let body = &context.scene.bodies[&self.switch.body];
         let mut notes = self.notes.borrow_mut();
         let filled = particles::fill(context, &key, (body, de), (block, own_rows), &mut notes)?;
-        let network = particles::without_notch(context, &key, body, filled, &block)?.network;
+        let mut network = particles::without_notch(context, &key, body, filled, &block)?.network;
+        context.file.spoil_network(&mut network);
         self.packed.borrow_mut().push((block, network.clone()));
         Ok(network)
     }

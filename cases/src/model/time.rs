@@ -24,7 +24,8 @@ use std::f64::consts::PI;
 /// Packs particles into a box.
 type Fill<'a> = Box<dyn Fn(Block, Matter) -> seam_solver::error::Result<Network> + 'a>;
 
-/// Runs a scene in time; `watch` sees every output. The notes of `built` grow by what was packed for switches.
+/// Runs a scene in time, from the start or on from a checkpoint of the solver; `watch` sees every output. The notes of
+/// `built` grow by what was packed for switches.
 ///
 /// # Errors
 /// A fault of the scene that only shows here, what the solver refuses, what `watch` returns.
@@ -32,15 +33,17 @@ pub fn run(
     file: &SceneFile,
     dynamics: &Dynamics,
     built: &mut Built,
+    checkpoint: Option<&[u8]>,
     watch: &mut dyn FnMut(&Snapshot) -> Result<()>,
 ) -> Result<Outcome> {
-    through(file, dynamics, built, watch).map_err(|refusal| refusal.of(file))
+    through(file, dynamics, built, checkpoint, watch).map_err(|refusal| refusal.of(file))
 }
 
 fn through(
     file: &SceneFile,
     dynamics: &Dynamics,
     built: &mut Built,
+    checkpoint: Option<&[u8]>,
     watch: &mut dyn FnMut(&Snapshot) -> Result<()>,
 ) -> std::result::Result<Outcome, Refusal> {
     let context = Context::new(file)?;
@@ -54,7 +57,7 @@ fn through(
         .collect::<std::result::Result<Vec<_>, Refusal>>()?;
     let fills: Vec<Fill> =
         fillings.iter().map(|filling| Box::new(|block, _| filling.fill(block)) as Fill).collect();
-    let plan = Plan {
+    let mut plan = Plan {
         stepping: stepping(&context, dynamics)?,
         end_s: number(&dynamics.end_s, "end_s")?,
         initial_velocity: velocity.as_deref(),
@@ -69,7 +72,13 @@ fn through(
         contact: context.scene.contact.as_ref().map(|given| contact(&context, given)).transpose()?,
         switches: fillings.iter().zip(&fills).map(|(filling, fill)| filling.rule(fill)).collect(),
     };
-    let outcome = simulation::run(built.model.clone(), &plan, &mut |snapshot| Ok(watch(snapshot)?));
+    file.spoil_plan(&mut plan);
+    let model = built.model.clone();
+    let mut watch = |snapshot: &Snapshot| Ok(watch(snapshot)?);
+    let outcome = match checkpoint {
+        None => simulation::run(model, &plan, &mut watch),
+        Some(bytes) => simulation::resume(model, &plan, bytes, &mut watch),
+    };
     drop(plan);
     drop(fills);
     built.calibration += context.calibration.get();

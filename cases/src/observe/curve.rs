@@ -1,6 +1,7 @@
 //! A value along a line or over time, and its distance from a reference.
 
 use crate::scene::quantity::{Norm, Take};
+use serde::{Deserialize, Serialize};
 
 /// Stations with a reference below this share of the largest one say nothing about a relative error.
 const SMALL: f64 = 0.05;
@@ -8,7 +9,7 @@ const SMALL: f64 = 0.05;
 const ROUNDING: f64 = 1e-9;
 
 /// What a curve runs along.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Axis {
     /// A line through the bodies, in m.
     #[default]
@@ -34,7 +35,7 @@ impl Axis {
 }
 
 /// A value at stations.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct Curve {
     /// What it runs along.
     pub axis: Axis,

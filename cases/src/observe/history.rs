@@ -10,6 +10,7 @@ use crate::file::SceneFile;
 use crate::scene::probe::{Probe, Read, Where};
 use seam_solver::model::{Model, Part};
 use seam_solver::simulation::{Energies, Snapshot};
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
 /// Writes down every output of a run.
@@ -17,6 +18,13 @@ pub struct Recorder<'a> {
     file: &'a SceneFile,
     probes: Vec<(&'a String, &'a Probe)>,
     supports: Supports,
+    /// What was written down.
+    pub histories: Histories,
+}
+
+/// What a run has shown so far.
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
+pub struct Histories {
     /// One per probe that gives a history.
     pub curves: BTreeMap<String, Curve>,
     /// Time (s) and energies of each output.
@@ -31,7 +39,7 @@ impl<'a> Recorder<'a> {
         let probes: Vec<(&String, &Probe)> =
             file.scene.probes.iter().filter(|(_, probe)| probe.is_history()).collect();
         let curves = probes.iter().map(|(name, _)| ((*name).clone(), Curve::history())).collect();
-        Self { file, probes, supports, curves, energies: Vec::new(), reactions: Vec::new() }
+        Self { file, probes, supports, histories: Histories { curves, ..Histories::default() } }
     }
 
     /// Reads one output. A second one at the same time takes the place of the first.
@@ -39,14 +47,15 @@ impl<'a> Recorder<'a> {
     /// # Errors
     /// A point outside of all bodies.
     pub fn watch(&mut self, snapshot: &Snapshot) -> Result<()> {
+        let histories = &mut self.histories;
         let time = snapshot.state.time;
-        let again = self.energies.last().is_some_and(|(last, _)| *last >= time);
+        let again = histories.energies.last().is_some_and(|(last, _)| *last >= time);
         if again {
-            self.energies.pop();
+            histories.energies.pop();
         }
-        self.energies.push((time, snapshot.energies));
+        histories.energies.push((time, snapshot.energies));
         self.supports.follow(snapshot.model, snapshot.switches);
-        self.reactions = snapshot.reactions.to_vec();
+        histories.reactions = snapshot.reactions.to_vec();
         // Finding points in meshes is prepared only where a probe asks for it.
         let at_places = self.probes.iter().any(|(_, probe)| probe.read.place() == Where::Place);
         let field = at_places.then(|| Field::new(snapshot.model, &snapshot.state.u));
@@ -63,7 +72,7 @@ impl<'a> Recorder<'a> {
                 }
                 _ => of_run(probe.read, snapshot),
             };
-            if let Some(curve) = self.curves.get_mut(*name) {
+            if let Some(curve) = histories.curves.get_mut(*name) {
                 if again {
                     curve.x.pop();
                     curve.y.pop();

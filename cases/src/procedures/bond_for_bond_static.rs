@@ -11,7 +11,8 @@ use seam_solver::space::Vec3;
 /// One difference of displacements and one of rotations for each network and code.
 pub fn run(setting: &Setting, result: &mut CaseResult) -> Result<()> {
     for code in CODES {
-        for task in static_tasks(setting, code)? {
+        for mut task in static_tasks(setting, code)? {
+            setting.file.spoil_model(&mut task.model);
             compare(setting, &task, code, result)?;
         }
     }

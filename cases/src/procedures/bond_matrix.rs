@@ -25,7 +25,9 @@ pub fn run(setting: &Setting, result: &mut CaseResult) -> Result<()> {
     let (mut worst, mut asymmetry) = (0.0, 0.0);
     for k in 0..orientations {
         let n = direction(k, orientations);
-        let own = stiffness_matrix(n * length, bond);
+        let mut own = stiffness_matrix(n * length, bond);
+        // Symmetric: rows are columns.
+        setting.file.spoil_bond(&mut own.data.0);
         worst = nan_max(worst, difference(&own, &rotated(&local, n)));
         asymmetry = nan_max(asymmetry, difference(&own, &own.transpose()));
     }

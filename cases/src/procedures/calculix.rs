@@ -77,7 +77,7 @@ fn solve(
     let value = |point: usize, component: usize, value: f64| PointValue { part: 0, point, component, value };
     let forces = vectors(setting, data, "f", "N", dim)?;
     let body = Continuum { name: "cantilever".to_owned(), mesh, elasticity, hypothesis, formulation };
-    let model = Model {
+    let mut model = Model {
         space: hypothesis.space(),
         parts: vec![Part::Continuum(body)],
         ties: Vec::new(),
@@ -88,6 +88,7 @@ fn solve(
             .flat_map(|(k, f)| (0..dim).map(move |i| value(k, i, f[i])))
             .collect(),
     };
+    setting.file.spoil_model(&mut model);
     let solution = statics::solve(&model).map_err(refuse)?;
     result.work += solution.work;
     Ok((0..forces.len()).map(|k| solution.displacement(&model, 0, k)).collect())

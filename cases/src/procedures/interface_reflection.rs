@@ -2,14 +2,15 @@
 //!
 //! Two chains of particles at spacing h, `h = 1` m, tied to the top and bottom of a row of elements of length 2h; only `u_x`
 //! is free, so that both sides are bars. A pulse of narrow band runs towards the interface; a station half way reads
-//! what goes and what comes back at the frequency of the pulse.
+//! what goes and what comes back at the frequency of the pulse. The same in the plane ([`super::plane_reflection`]) is shown beside.
 
 use super::Setting;
 use super::compared::{exact, plot, series};
+use super::plane_reflection::{self, Wave};
 use super::scattering::{Lattice, equal_steps, frequency, reflection};
 use super::straight::{Chain, hold, plane, rectangle};
 use crate::error::Result;
-use crate::result::{CaseResult, Role};
+use crate::result::{CaseResult, Observation, Role};
 use rayon::prelude::*;
 use seam_solver::coupling::{Method as Tying, Multipliers, Tie};
 use seam_solver::dem::network::{BondStiffness, Network};
@@ -107,6 +108,30 @@ pub fn run(setting: &Setting, result: &mut CaseResult) -> Result<()> {
         }
         result.curves.push(plot([id, title, "λ / element length (1)", "|R| (1)"], [true, true], lines));
     }
+    in_the_plane(setting, &bar, result)
+}
+
+/// Waves of two kinds in the plane, beside the formula of the chains: shown, not judged.
+fn in_the_plane(setting: &Setting, bar: &Bar, result: &mut CaseResult) -> Result<()> {
+    let lengths = LENGTHS.map(|(length, _)| length);
+    let chains = lengths.map(|x| (x, bar.theory(2.0 * x, Method::GravouilCombescure, 1)));
+    let mut lines = vec![series("chains, equal steps, exact", Role::Reference, chains)];
+    for (wave, id, words) in [(Wave::Pressure, "p", "pressure wave"), (Wave::Shear, "s", "shear wave")] {
+        let (values, work) = plane_reflection::measure(setting, wave, &lengths)?;
+        result.work += work;
+        for ((length, name), &value) in LENGTHS.iter().zip(&values) {
+            result.quantities.push(Observation {
+                id: format!("plane-{id}-{name}"),
+                label: format!("|R| at λ/h = {length}, {words} in the plane"),
+                unit: "1".to_owned(),
+                value,
+                ..Observation::default()
+            });
+        }
+        lines.push(series(words, Role::Model, lengths.into_iter().zip(values)));
+    }
+    let title = "Reflection in the plane, triangular lattice, mortar, equal steps";
+    result.curves.push(plot(["plane", title, "λ / element height (1)", "|R| (1)"], [true, true], lines));
     Ok(())
 }
 

@@ -40,7 +40,10 @@ pub fn run(setting: &Setting, result: &mut CaseResult) -> Result<()> {
                 Specimen::lattice_cell(kind, spacing, [0.0; 3], matter).map_err(|e| setting.solver(e))?;
             let recipe = BondRecipe { material, section: Section::Uniform { ratio }, skin: Skin::Full };
             let found = periodic_network(&cell.arrangement, &cell.pairs, &recipe)
-                .and_then(|network| homogenise(&network, &mut result.work))
+                .and_then(|mut network| {
+                    setting.file.spoil_network(&mut network.network);
+                    homogenise(&network, &mut result.work)
+                })
                 .map_err(|e| setting.solver(e))?;
             let bond = material.cylinder(0.5 * ratio * spacing, spacing);
             let exact = stiffness(kind, spacing, thickness_m, bond);

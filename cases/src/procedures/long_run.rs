@@ -4,17 +4,25 @@
 //! swings with O(Δt²) and must not drift, momenta stay exactly: internal forces and moments balance about the present places.
 
 use super::compared::{plot, series, within};
+use super::hard::bodies::{SPACES, bonded, close_packed};
 use super::specimen::{block, wave};
 use super::{Setting, rounding};
 use crate::error::Result;
+use crate::margin::Search;
 use crate::observe::curve::nan_max;
 use crate::result::{CaseResult, Role};
+use crate::study::stability::trend;
+use seam_solver::dem::arrangement::Matter;
+use seam_solver::dem::bond::BondMaterial;
 use seam_solver::dem::network::Network;
 use seam_solver::dynamics::State;
 use seam_solver::dynamics::critical;
 use seam_solver::dynamics::explicit::{Explicit, Options};
 use seam_solver::dynamics::forces::Rotations;
-use seam_solver::model::{Model, Part};
+use seam_solver::dynamics::newmark::{self, Newmark, Scheme};
+use seam_solver::dynamics::semidiscrete::Semidiscrete;
+use seam_solver::error::Error;
+use seam_solver::model::{Model, Numbering, Part};
 use seam_solver::space::{Space, Vec3};
 
 const PER: usize = 6;
@@ -56,6 +64,9 @@ pub fn run(setting: &Setting, result: &mut CaseResult) -> Result<()> {
             let source = "central differences keep ½ v₋ᵀMv₊ + ½ uᵀKu";
             let label = label("Largest change of the energy");
             result.quantities.push(rounding("energy-small", &label, swing, 1e-9, why, source));
+            let points: Vec<(f64, f64)> = seen.iter().map(|s| (s.step / steps as f64, off(s))).collect();
+            let label = "Drift of the energy over the run, linear bonds";
+            result.quantities.extend(trend::observed("trend-small", label, &points));
         } else {
             let mean = |part: &[Sample]| part.iter().map(off).sum::<f64>() / part.len() as f64;
             let tenth = seen.len() / 10;
@@ -93,7 +104,85 @@ pub fn run(setting: &Setting, result: &mut CaseResult) -> Result<()> {
         [false; 2],
         lines,
     ));
+    margins(setting, result)
+}
+
+/// The longest step at which a run keeps its energy to 1e-9, plane and solid, explicit and implicit.
+fn margins(setting: &Setting, result: &mut CaseResult) -> Result<()> {
+    let material =
+        BondMaterial { young_pa: setting.number("young_Pa")?, poisson: setting.number("poisson")? };
+    let matter = Matter { density: setting.number("density_kg_m3")?, thickness_m: 1.0 };
+    let (side, ratio) = (setting.number("side_m")?, setting.number("radius_ratio")?);
+    let (needed, steps) = (setting.number("step_share")?, setting.count("searched_steps", 10)? as u64);
+    for (space, id) in SPACES {
+        let refuse = |e| setting.solver(e);
+        let rows = if space == Space::Plane { 3 } else { setting.count("rows", 1)? };
+        let model = bonded(close_packed(space, side, rows, material, ratio, matter).map_err(refuse)?);
+        let bound = critical::bound(&model).map_err(refuse)?.step_s;
+        type Swing = fn(&Model, f64, u64, &mut CaseResult) -> seam_solver::error::Result<f64>;
+        for (code, name, swing, to) in [
+            ("explicit", "explicit", explicit as Swing, 2.0),
+            ("implicit", "trapezoidal rule", implicit, 1e4),
+        ] {
+            let search = Search { from: 0.25, to, tolerance: 0.01 };
+            let found = search.largest(|share| match swing(&model, share * bound, steps, result) {
+                Ok(swing) => Ok(swing <= 1e-9),
+                Err(Error::UnstableStep { .. }) => Ok(false),
+                Err(e) => Err(refuse(e)),
+            })?;
+            let criterion = "an undamped run keeps its energy to 1e-9; a step beyond the bound is refused";
+            let margin = [
+                &format!("step-{code}-{id}"),
+                &format!("linear bonds, {id}, {name}"),
+                "step over the explicit bound",
+            ];
+            result.margins.push(found.margin(["1e6 undamped steps", criterion], margin, needed));
+        }
+    }
     Ok(())
+}
+
+/// Largest change of `½ v₋ᵀMv₊ + ½ uᵀKu`, relative.
+fn explicit(
+    model: &Model,
+    step_s: f64,
+    steps: u64,
+    result: &mut CaseResult,
+) -> seam_solver::error::Result<f64> {
+    let n = Numbering::new(model).len();
+    let start = State { u: (0..n).map(|i| wave(i, 1e-3)).collect(), ..State::at_rest(n) };
+    let mut run = Explicit::new(model, Options { step_s, ..Options::default() }, &start)?;
+    let energy = run.observe()?.ledger.energy();
+    let mut worst = 0.0;
+    for _ in 0..10 {
+        run.advance(steps / 10)?;
+        worst = nan_max(worst, (run.observe()?.ledger.energy() / energy - 1.0).abs());
+    }
+    result.work += run.work();
+    Ok(worst)
+}
+
+/// Largest change of `½ vᵀMv + ½ uᵀKu`, relative; a tenth of the steps.
+fn implicit(
+    model: &Model,
+    step_s: f64,
+    steps: u64,
+    result: &mut CaseResult,
+) -> seam_solver::error::Result<f64> {
+    let work = &mut result.work;
+    let system = Semidiscrete::new(model, work)?;
+    let stepper = Newmark::new(&system, Scheme::TRAPEZOIDAL, step_s, 0.0, work)?;
+    let n = system.mass.len();
+    let start = ((0..n).map(|i| wave(i, 1e-3)).collect(), vec![0.0; n]);
+    let (mut motion, _) = newmark::start(&system, start, 0.0, 0.0, 0.0, work)?;
+    let energy = system.strain(&motion.u);
+    let mut worst = 0.0;
+    for _ in 0..steps / 10 {
+        stepper.step(&mut motion, [0.0; 2], work)?;
+        let now = system.kinetic(&motion.v) + system.strain(&motion.u);
+        worst = nan_max(worst, (now / energy - 1.0).abs());
+    }
+    Ok(worst)
 }
 
 /// Linear bonds start strained and at rest, so that nothing moves away; the others start unstrained, spinning and shaken.

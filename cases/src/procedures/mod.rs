@@ -20,6 +20,7 @@ mod interface_reflection;
 mod lattice_constants;
 mod long_run;
 mod manufactured;
+mod plane_reflection;
 mod rigid_rotation;
 mod roll_up;
 mod scattering;
@@ -29,6 +30,7 @@ mod straight;
 mod subcycling;
 mod time_step_orders;
 
+use crate::checkpoint::Checkpoints;
 use crate::error::{Error, Fault, Result};
 use crate::file::SceneFile;
 use crate::result::{CaseResult, Observation};
@@ -84,8 +86,20 @@ pub fn names() -> impl Iterator<Item = &'static str> + Clone {
 /// # Errors
 /// A fault of the scene, or what the solver refuses.
 pub fn run(file: &SceneFile, tier: Tier) -> Result<Run> {
+    run_keeping(file, tier, &Checkpoints::default())
+}
+
+/// The same with checkpoints of the scene's run in time.
+///
+/// # Errors
+/// As [`run`]; a case that has no run in time; a checkpoint that cannot be read, written or used.
+pub fn run_keeping(file: &SceneFile, tier: Tier, checkpoints: &Checkpoints) -> Result<Run> {
+    if file.scene.dynamics.is_none() && !checkpoints.is_off() {
+        let message = "the case has no run in time to keep or to restart; leave the checkpoints out";
+        return Err(file.error(Fault::new("dynamics", message, "name a scene with [dynamics]")));
+    }
     let Some((_, procedure)) = REGISTRY.iter().find(|(name, _)| *name == file.scene.procedure) else {
-        return study::run(file, tier);
+        return study::run(file, tier, checkpoints);
     };
     let start = Instant::now();
     let mut result = study::head(file, tier);
@@ -135,7 +149,12 @@ impl Setting<'_> {
 
     /// The numbers of a reference, once they are known to be whole.
     fn dataset(&self, case: &str, source: &str) -> Result<Dataset> {
-        find(case, source).and_then(|reference| reference.open()).map_err(|problem| self.reference(problem))
+        let spoiled = |mut reference| {
+            self.file.spoil_reference(&mut reference);
+            reference
+        };
+        let found = find(case, source).map(spoiled);
+        found.and_then(|reference| reference.open()).map_err(|problem| self.reference(problem))
     }
 }
 

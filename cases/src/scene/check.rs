@@ -4,8 +4,8 @@ use super::body::{Body, Method};
 use super::de::{Arrangement, Calibrate, De};
 use super::number::Number;
 use super::{
-    Scene, check_connection, check_dynamics, check_failure, check_notched_beam, check_probe, check_study,
-    check_switch,
+    Scene, check_connection, check_dynamics, check_failure, check_notched_beam, check_probe, check_size,
+    check_study, check_switch,
 };
 use crate::error::Fault;
 use crate::expression::{RESERVED, Values};
@@ -22,6 +22,7 @@ pub type Checked = Result<(), Fault>;
 /// The first fault, with its key.
 pub fn check(scene: &Scene, values: &Values) -> Checked {
     head(scene)?;
+    file_names(scene)?;
     parameters(scene)?;
     positive(&scene.thickness_m, values, "thickness_m")?;
     materials(scene, values)?;
@@ -37,7 +38,8 @@ pub fn check(scene: &Scene, values: &Values) -> Checked {
     for (name, probe) in &scene.probes {
         check_probe::check(scene, name, probe, values)?;
     }
-    check_study::check(scene, values)
+    check_study::check(scene, values)?;
+    check_size::check(scene, values)
 }
 
 fn head(scene: &Scene) -> Checked {
@@ -53,9 +55,28 @@ fn head(scene: &Scene) -> Checked {
         let message = format!("there is no procedure '{}'", scene.procedure);
         return Err(Fault::new("procedure", message, hint(&scene.procedure, procedures::names())));
     }
+    if let Some((name, _)) = scene.expected_failures.iter().find(|(_, why)| why.trim().is_empty()) {
+        let key = format!("expected_failures.{name}");
+        return Err(Fault::new(key, "the reason is blank", "say why it fails, and what would mend it"));
+    }
     if scene.procedure == "statics" && scene.bodies.is_empty() {
         let mend = "add a [bodies.NAME] table, or name a procedure that needs none";
         return Err(Fault::new("bodies", "there is no body", mend));
+    }
+    Ok(())
+}
+
+/// Names that become names of files must not lead out of the folder of the case.
+fn file_names(scene: &Scene) -> Checked {
+    let bodies = scene.bodies.keys().map(|name| ("bodies", name));
+    let probes = scene.probes.keys().map(|name| ("probes", name));
+    let switches = scene.switches.keys().map(|name| ("switches", name));
+    for (table, name) in bodies.chain(probes).chain(switches) {
+        let bad = |c: char| matches!(c, '/' | '\\' | ':') || c.is_control();
+        if name.is_empty() || name.starts_with('.') || name.contains(bad) || name.len() > 100 {
+            let message = format!("'{name}' is not a name: files are named after it");
+            return Err(Fault::new(format!("{table}.{name}"), message, "use letters, digits, hyphens and _"));
+        }
     }
     Ok(())
 }

@@ -34,6 +34,10 @@ pub fn check(scene: &Scene, name: &str, probe: &Probe, values: &Values) -> Check
             "give at least 1",
         ));
     }
+    if !probe.beside.is_empty() && probe.line.is_none() && !is_history(scene, probe) {
+        let mend = "remove it, or read the probe along a line or over time";
+        return Err(Fault::new(format!("{key}.beside"), "a single number has no curve to draw beside", mend));
+    }
     check_exact(probe, space, &key)
 }
 

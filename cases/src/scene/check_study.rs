@@ -18,6 +18,11 @@ use serde_json::Value;
 /// # Errors
 /// The first fault, with its key.
 pub fn check(scene: &Scene, values: &Values) -> Checked {
+    for (name, probe) in &scene.probes {
+        for (legend, names) in &probe.beside {
+            variants(scene, names, &format!("probes.{name}.beside.{legend}"))?;
+        }
+    }
     for (name, quantity) in &scene.quantities {
         check_quantity(scene, name, quantity, values)?;
     }

@@ -10,6 +10,7 @@ mod check_dynamics;
 mod check_failure;
 pub mod check_notched_beam;
 mod check_probe;
+mod check_size;
 mod check_study;
 mod check_switch;
 pub mod connection;
@@ -26,6 +27,7 @@ pub mod number;
 pub mod parameter;
 pub mod probe;
 pub mod quantity;
+mod simulated;
 pub mod study;
 pub mod switch;
 
@@ -65,9 +67,16 @@ pub struct Scene {
     /// Largest model that is run.
     #[serde(default)]
     pub limits: Limits,
+    /// Quantities that are known to fail, by id, each with the reason. One that passes raises an alarm.
+    #[serde(default)]
+    pub expected_failures: BTreeMap<String, String>,
     /// Effects to simulate: their names, or `["auto"]` for those that the tables ask for.
     #[serde(default = "auto")]
     pub effects: Vec<String>,
+    /// Why the problem is posed in linear theory, whatever its displacements, as benchmarks with a modulus of 1 are: rotations may
+    /// then be as large as they like.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub linear: Option<String>,
     /// Plane or solid.
     #[serde(default = "plane_stress")]
     pub hypothesis: Hypothesis,
@@ -151,6 +160,12 @@ pub struct Scene {
     /// Effects that are switched on and off.
     #[serde(default)]
     pub ablations: BTreeMap<String, study::AblationDeclaration>,
+}
+
+/// JSON schema of a scene file, ending in a newline; published as `cases/scene.schema.json`.
+pub fn schema() -> String {
+    // A schema is an object of text and numbers: it can always be written.
+    serde_json::to_string_pretty(&schemars::schema_for!(Scene)).unwrap_or_default() + "\n"
 }
 
 fn yes() -> bool {
@@ -245,11 +260,15 @@ pub struct Limits {
     pub particles: usize,
     /// Most nodes of a body.
     pub nodes: usize,
+    /// Most stations of a line or a history.
+    pub stations: usize,
+    /// Most members of a family, seeds included.
+    pub members: usize,
 }
 
 impl Default for Limits {
     fn default() -> Self {
-        Self { particles: 200_000, nodes: 500_000 }
+        Self { particles: 200_000, nodes: 500_000, stations: 100_000, members: 100_000 }
     }
 }
 

@@ -3,6 +3,7 @@
 use super::number::Number;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 
 /// One probe: a value at a `point`, along a `line`, at a `support`, of a `switch` or of the whole model.
 ///
@@ -35,6 +36,9 @@ pub struct Probe {
     /// Caption of the curve.
     #[serde(default)]
     pub title: String,
+    /// Lines and histories only: curves of the scene with these variants, drawn beside; legend and variants.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub beside: BTreeMap<String, Vec<String>>,
     /// Half width of the band drawn around the reference, as a share of its largest value.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub band: Option<f64>,

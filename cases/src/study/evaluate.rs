@@ -1,6 +1,7 @@
 //! One run of one scene: an equilibrium, or a run in time.
 
 use super::reference::Reference;
+use crate::checkpoint::Checkpoints;
 use crate::error::Result;
 use crate::file::SceneFile;
 use crate::model::{self, Built, time};
@@ -8,7 +9,7 @@ use crate::observe::crack::{self, Cracked};
 use crate::observe::curve::Curve;
 use crate::observe::field::Field;
 use crate::observe::guard::Guard;
-use crate::observe::history::Recorder;
+use crate::observe::history::{Histories, Recorder};
 use crate::observe::probes::{Moment, Observer, Reading};
 use crate::observe::supports::Supports;
 use crate::observe::switches::{Switches, extent, region_x};
@@ -104,6 +105,11 @@ impl Readings {
         }
     }
 
+    /// What a probe read.
+    pub fn reading(&self, probe: &str) -> Option<&Reading> {
+        self.by_probe.get(probe)
+    }
+
     /// All of them, by probe.
     pub fn iter(&self) -> impl Iterator<Item = (&String, &Reading)> {
         self.by_probe.iter()
@@ -134,10 +140,36 @@ impl Tally {
 /// # Errors
 /// A fault of the scene, or what the solver refuses.
 pub fn solve(file: &SceneFile, tally: &Tally) -> Result<Solved> {
+    solve_with(file, tally, &Checkpoints::default(), |_| ())
+}
+
+/// The same with checkpoints of a run in time.
+///
+/// # Errors
+/// As [`solve`]; a checkpoint that cannot be read, written or used.
+pub fn solve_keeping(file: &SceneFile, tally: &Tally, checkpoints: &Checkpoints) -> Result<Solved> {
+    solve_with(file, tally, checkpoints, |_| ())
+}
+
+/// The same with a change of the model between building and solving.
+///
+/// # Errors
+/// As [`solve`].
+pub fn solve_changed(file: &SceneFile, tally: &Tally, change: impl FnOnce(&mut Built)) -> Result<Solved> {
+    solve_with(file, tally, &Checkpoints::default(), change)
+}
+
+fn solve_with(
+    file: &SceneFile,
+    tally: &Tally,
+    checkpoints: &Checkpoints,
+    change: impl FnOnce(&mut Built),
+) -> Result<Solved> {
     let start = Instant::now();
-    let built = model::build(file)?;
+    let mut built = model::build(file)?;
+    change(&mut built);
     let mut solved = match (&file.scene.dynamics, &file.scene.cracking) {
-        (Some(dynamics), _) => go(file, dynamics, built, start)?,
+        (Some(dynamics), _) => go(file, dynamics, built, (checkpoints, start))?,
         (None, Some(cracking)) => crack(file, cracking, built)?,
         (None, None) => stand(file, built)?,
     };
@@ -147,7 +179,8 @@ pub fn solve(file: &SceneFile, tally: &Tally) -> Result<Solved> {
 }
 
 fn stand(file: &SceneFile, built: Built) -> Result<Solved> {
-    let solution = statics::solve(&built.model).map_err(|e| file.solver(e))?;
+    let mut solution = statics::solve(&built.model).map_err(|e| file.solver(e))?;
+    file.spoil_solution(&built.model, &mut solution);
     let mut supports = Supports::new(&built);
     supports.follow(&built.model, 0);
     let by_probe = read(file, &built, &solution, &supports, |_| true)?;
@@ -157,13 +190,24 @@ fn stand(file: &SceneFile, built: Built) -> Result<Solved> {
     Ok(Solved { built, solution, readings, course: None, cracked: None, guard, seconds: 0.0 })
 }
 
-fn go(file: &SceneFile, dynamics: &Dynamics, mut built: Built, start: Instant) -> Result<Solved> {
+fn go(
+    file: &SceneFile,
+    dynamics: &Dynamics,
+    mut built: Built,
+    (checkpoints, start): (&Checkpoints, Instant),
+) -> Result<Solved> {
     let mut recorder = Recorder::new(file, Supports::new(&built));
     let mut guard = Guard::new(file)?;
-    let outcome = time::run(file, dynamics, &mut built, &mut |snapshot| {
+    let checkpoint = checkpoints.kept(file)?.map(|kept| {
+        recorder.histories = kept.histories;
+        (guard.largest_rotation, guard.nearest_switch) = kept.guarded;
+        kept.run
+    });
+    let outcome = time::run(file, dynamics, &mut built, checkpoint.as_deref(), &mut |snapshot| {
         let state = snapshot.state;
         guard.watch(snapshot.model, &state.u, [state.time, snapshot.factor]).map_err(|e| file.solver(e))?;
-        recorder.watch(snapshot)
+        recorder.watch(snapshot)?;
+        checkpoints.keep(file, (&recorder.histories, &guard), snapshot)
     })?;
     let Outcome { model, state, energies, switches, losses, notes, work, switch_seconds, .. } = outcome;
     let share_of_time = switch_seconds / start.elapsed().as_secs_f64();
@@ -172,7 +216,7 @@ fn go(file: &SceneFile, dynamics: &Dynamics, mut built: Built, start: Instant) -
     let solution = Solution {
         numbering: Numbering::new(&built.model),
         u: state.u,
-        reactions: std::mem::take(&mut recorder.reactions),
+        reactions: std::mem::take(&mut recorder.histories.reactions),
         multipliers: Vec::new(),
         energy: energies.strain,
         // Each step has its own.
@@ -194,9 +238,10 @@ fn go(file: &SceneFile, dynamics: &Dynamics, mut built: Built, start: Instant) -
     for (name, _) in file.scene.probes.iter().filter(|(_, probe)| probe.read == Read::PeakForce) {
         by_probe.extend(peak.map(|peak| (name.clone(), Reading::Scalar(peak))));
     }
-    let curves = recorder.curves.into_iter().map(|(name, curve)| (name, Reading::Curve(curve)));
+    let Histories { curves, energies, .. } = recorder.histories;
+    let curves = curves.into_iter().map(|(name, curve)| (name, Reading::Curve(curve)));
     by_probe.extend(curves);
-    let course = Course { energies: recorder.energies, switches, losses: losses.len() };
+    let course = Course { energies, switches, losses: losses.len() };
     let readings = Readings { by_probe, first_switch: course.first_switch() };
     Ok(Solved { built, solution, readings, course: Some(course), cracked: None, guard, seconds: 0.0 })
 }

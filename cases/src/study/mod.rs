@@ -15,7 +15,9 @@ mod quantities;
 mod reference;
 mod richardson;
 mod sketch;
+pub mod stability;
 
+use crate::checkpoint::Checkpoints;
 use crate::error::{Error, Result};
 use crate::file::SceneFile;
 use crate::folder::Folder;
@@ -40,17 +42,17 @@ pub struct Run {
     pub fields: Option<(Model, Solution)>,
 }
 
-/// Runs a scene with all its studies.
+/// Runs a scene with all its studies; checkpoints are of its own run in time.
 ///
 /// # Errors
 /// A fault of the scene or a refusal of the solver, outside of families and cost diagrams, whose
 /// members may fail one by one.
-pub fn run(file: &SceneFile, tier: Tier) -> Result<Run> {
+pub fn run(file: &SceneFile, tier: Tier, checkpoints: &Checkpoints) -> Result<Run> {
     let start = Instant::now();
     let tally = Tally::default();
     let library = Library::default();
     let study = Study { file, tier, tally: &tally, library: &library };
-    let solved = evaluate::solve(file, &tally)?;
+    let solved = evaluate::solve_keeping(file, &tally, checkpoints)?;
     let mut result = head(file, tier);
     result.effects = effects::used(file, &solved);
     result.notes = [solved.built.notes.clone(), solved.solution.notes.clone()].concat();
@@ -139,6 +141,7 @@ pub fn head(file: &SceneFile, tier: Tier) -> CaseResult {
         scene_hash: file.hash(),
         command: command(file, tier),
         parameters: scene.parameters.iter().map(parameter).collect(),
+        expected_failures: scene.expected_failures.clone(),
         ..CaseResult::default()
     }
 }

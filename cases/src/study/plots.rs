@@ -63,6 +63,13 @@ fn plot(study: &Study, solved: &Solved, name: &str, (probe, curve): (&Probe, &Cu
             against = ReferenceKind::OwnFem;
         }
     }
+    for (legend, names) in &probe.beside {
+        let file = study.file.with(&study.variants(names))?;
+        let other = study.library.own_run(&file, legend, study.tally)?;
+        if let Some((curve, _)) = other.curves.get(name) {
+            all.push(series(legend, Role::Model, curve));
+        }
+    }
     if let Some(exact) = probe.exact.first() {
         let key = format!("probes.{name}.exact[0]");
         let mut theory = Curve { axis: curve.axis, x: curve.x.clone(), y: Vec::new() };

@@ -69,6 +69,16 @@ mod tests {
         assert!((2.0 * found.u / 0.97050 - 0.0010308).abs() < 1e-7);
     }
 
+    /// Celik et al. (2008), table 1, first column: ratios 1.333 and 1.5, p = 1.53, extrapolated 6.1685, index 2.2 %.
+    #[test]
+    fn published_example_with_unequal_ratios() {
+        let found = extrapolate([5.863, 5.972, 6.063], [1.333, 1.5], 2.0);
+        assert!((found.order.unwrap() - 1.53).abs() < 0.005, "two decimals are printed: {found:?}");
+        // The printed value rests on the rounded order: 5e-4 of it.
+        assert!((found.value - 6.1685).abs() < 5e-4, "{found:?}");
+        assert!((2.0 * found.u / 6.063 - 0.022).abs() < 5e-4, "two digits are printed: {found:?}");
+    }
+
     #[test]
     fn unequal_ratios_give_back_the_order() {
         let at = |h: f64| 3.0 + 0.2 * h.powf(1.5);

@@ -1,6 +1,7 @@
 //! Statistics of ensembles, of refinement studies and of many comparisons at once.
 
 pub mod bias;
+pub mod bootstrap;
 pub mod convergence;
 pub mod ensemble;
 pub mod student;

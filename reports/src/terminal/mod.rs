@@ -1,10 +1,14 @@
 //! The error table for a terminal of 80 columns: claims, numbers, margins, failures, one closing line.
 
+mod changes;
+mod differences;
 mod failures;
 mod margins;
 pub(crate) mod studies;
 mod style;
 
+pub use changes::changes;
+pub use differences::differences;
 pub use style::Style;
 
 use crate::format::{self, percent, share, signed_percent};
@@ -18,7 +22,7 @@ const WIDTH: usize = 80;
 
 /// The whole table, ending in a newline.
 pub fn table(results: &Results, style: Style) -> String {
-    let mut out = String::new();
+    let mut out = failures::loosened(results, style);
     let claims: Vec<&ClaimResult> = results.cases.iter().flat_map(|c| &c.claims).collect();
     if !claims.is_empty() {
         out.push_str(&heading("Claims", style));
@@ -32,6 +36,7 @@ pub fn table(results: &Results, style: Style) -> String {
     out.push_str(&margins::table(results, style));
     out.push_str(&studies::sections(results, style));
     out.push_str(&failures::blocks(results, style));
+    out.push_str(&failures::less_work(results));
     out.push_str(&closing(results));
     out
 }
@@ -87,6 +92,7 @@ fn row(q: &QuantityResult, style: Style) -> String {
     let headroom =
         q.headroom.map_or_else(|| "–".to_owned(), |h| format!("{:.0} %", (100.0 * h).clamp(-999.0, 100.0)));
     let verdict = match q.verdict {
+        Some(Verdict::Fail) if !q.failed() => style.paint(Paint::Mixed, "xfail"),
         Some(v) => style.paint(Paint::verdict(v), short(v)),
         None => style.paint(Paint::Dim, "shown"),
     };
@@ -139,11 +145,13 @@ fn closing(results: &Results) -> String {
     let quantities = || results.cases.iter().flat_map(|c| &c.quantities);
     let with = |v| quantities().filter(|q| q.verdict == Some(v)).count();
     let seconds: f64 = results.cases.iter().map(|c| c.seconds).sum();
+    let expected = quantities().filter(|q| q.verdict == Some(Verdict::Fail) && !q.failed()).count();
+    let known = if expected > 0 { format!(", {expected} failed as expected") } else { String::new() };
     format!(
-        "\n{}, {} passed, {} failed, {} undetermined, in {seconds:.1} s\n",
+        "\n{}, {} passed, {} failed{known}, {} undetermined, in {seconds:.1} s\n",
         format::count(results.cases.len(), "case"),
         with(Verdict::Pass),
-        with(Verdict::Fail),
+        with(Verdict::Fail) - expected,
         with(Verdict::Undetermined),
     )
 }

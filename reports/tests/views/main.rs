@@ -2,6 +2,7 @@
 
 mod files;
 mod fixture;
+mod margins;
 mod page;
 mod results;
 mod terminal;

@@ -1,7 +1,8 @@
 //! The axis-aligned box that a discrete-element body fills, and its named faces.
 
 use crate::error::{Error, Result};
-use crate::space::{Space, Vec3};
+use crate::space::{Space, Vec3, components};
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
 /// Names of the faces with their axis and whether they lie at its upper end: x, y, then z.
@@ -20,11 +21,13 @@ pub const FACES: [(&str, usize, bool); 6] = [
 const ON_FACE: f64 = 1e-9;
 
 /// An axis-aligned box; a rectangle at z = 0 in the plane.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Block {
     /// Corner of smallest coordinates, in metres.
+    #[serde(with = "components")]
     pub min: Vec3,
     /// Corner of largest coordinates, in metres.
+    #[serde(with = "components")]
     pub max: Vec3,
 }
 

@@ -57,9 +57,15 @@ impl Damping {
         }
     }
 
-    /// Local non-viscous forces (N, N m) where the unbalanced forces took `before` to `after` in `dt`; `None` for
-    /// other kinds.
-    pub(super) fn drag(&self, dt: f64, before: &[f64], after: &[f64], system: &System) -> Option<Vec<f64>> {
+    /// Local non-viscous forces (N, N m), written into `drag`, where the unbalanced forces took `before` to `after` in `dt`;
+    /// `None` for other kinds.
+    pub(super) fn drag<'a>(
+        &self,
+        dt: f64,
+        (before, after): (&[f64], &[f64]),
+        system: &System,
+        drag: &'a mut Vec<f64>,
+    ) -> Option<&'a [f64]> {
         let Damping::NonViscous { share } = self else { return None };
         let drag_of = |i: usize| {
             let unbalanced = system.mass[i] * (after[i] - before[i]) / dt;
@@ -68,7 +74,9 @@ impl Damping {
             let sign = if v == 0.0 { 0.0 } else { v.signum() };
             if system.is_prescribed(i) { 0.0 } else { -share * unbalanced.abs() * sign }
         };
-        Some((0..before.len()).map(drag_of).collect())
+        drag.clear();
+        drag.extend((0..before.len()).map(drag_of));
+        Some(drag)
     }
 
     /// Power of the damping forces on the velocities `w`, in W; `drag` as returned by [`Damping::drag`], the viscous

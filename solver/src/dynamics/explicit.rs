@@ -16,6 +16,7 @@ use super::system::System;
 use crate::error::{Error, Result};
 use crate::model::Model;
 use crate::work::Work;
+use serde::{Deserialize, Serialize};
 
 /// How to integrate.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -64,7 +65,7 @@ pub struct Explicit {
 }
 
 /// What a run carries from step to step.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct Motion {
     /// Time of step zero, in s.
     pub start: f64,
@@ -89,6 +90,8 @@ struct Kick {
     internal: Vec<f64>,
     /// Forces of the ties.
     ties: Vec<f64>,
+    /// Forces of local damping; empty without.
+    drag: Vec<f64>,
     /// Force of each support.
     supports: Vec<f64>,
     /// Multipliers of the ties, as impulses, and room for what they are solved from.
@@ -320,7 +323,7 @@ impl Explicit {
     fn kick(&mut self, dt: f64) -> Result<()> {
         let (now, factor) = (self.time(), self.options.loads.at(self.time()));
         let (system, before, u) = (&self.system, &self.motion.v, &self.motion.u);
-        let Kick { v, internal, ties, supports, multipliers, power } = &mut self.kick;
+        let Kick { v, internal, ties, drag, supports, multipliers, power } = &mut self.kick;
         internal.fill(0.0);
         self.forces.add(u, internal, &mut self.work);
         // A viscous force on v_n = ½(v₋ + v₊) divides by 1 + αΔt/2.
@@ -344,8 +347,8 @@ impl Explicit {
         lambda.clear();
         lambda.resize(system.rows.len(), 0.0);
         self.interface.project_adding(system, v, ties, [lambda, room], &mut self.work)?;
-        let drag = self.options.damping.drag(dt, before, v, system);
-        if let Some(drag) = &drag {
+        let drag = self.options.damping.drag(dt, (before, v), system, drag);
+        if let Some(drag) = drag {
             (0..v.len()).for_each(|i| v[i] += dt * drag[i] / system.mass[i]);
             self.interface.project_adding(system, v, ties, [lambda, room], &mut self.work)?;
         }
@@ -364,7 +367,7 @@ impl Explicit {
             let touch = contact.map_or(0.0, |f| f.iter().zip(w).map(|(f, w)| f * w).sum());
             WorkDone {
                 external: loads + moving,
-                damping: self.options.damping.power(drag.as_deref(), before, v, w, system),
+                damping: self.options.damping.power(drag, before, v, w, system),
                 interface: -per_impulse * rows.map(|(row, l)| l * row_product(&row.terms, w)).sum::<f64>(),
                 contact: touch,
                 // Taken at the ends of steps.

@@ -4,10 +4,11 @@
 //! `T_n = ½ v₋ᵀ M v₊`, `W = Σ ½ (q_n + q_{n+1})·Δu` balance exactly for central differences of a linear system: what does
 //! not is rounding. Finite rotations add an oscillation of second order in the step.
 
+use serde::{Deserialize, Serialize};
 use std::ops::{Add, AddAssign, Mul};
 
 /// Work done on the bodies since the start, in J.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub struct WorkDone {
     /// By loads and moving supports.
     pub external: f64,

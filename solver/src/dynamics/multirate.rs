@@ -9,6 +9,7 @@
 //!
 //! What "energy" means is in [`Ledger`].
 
+mod checkpoint;
 pub mod side;
 
 use super::semidiscrete::{Motion, Semidiscrete, dot};

@@ -12,6 +12,7 @@ use crate::solve::sparse::{SymmetricMatrix, Triplets};
 use crate::solve::statics;
 use crate::space::{Space, Vec3};
 use crate::work::Work;
+use serde::{Deserialize, Serialize};
 
 /// Matrices and vectors of a model on its free unknowns.
 pub struct Semidiscrete {
@@ -52,7 +53,7 @@ pub struct Semidiscrete {
 }
 
 /// Displacement, velocity and acceleration on the free unknowns of a [`Semidiscrete`].
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Motion {
     /// Time, in s.
     pub time: f64,

@@ -61,4 +61,12 @@ impl Stepper for Central {
     fn breaking(&self) -> Option<&Breaking> {
         self.0.breaking()
     }
+
+    fn freeze(&self) -> Vec<u8> {
+        self.0.freeze()
+    }
+
+    fn thaw(&mut self, bytes: &[u8]) -> Result<()> {
+        self.0.thaw(bytes)
+    }
 }

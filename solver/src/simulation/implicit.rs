@@ -11,6 +11,7 @@
 
 use super::clock::Clock;
 use super::segment::{Look, Stepper};
+use crate::checkpoint::{from_bytes, to_bytes};
 use crate::dynamics::State;
 use crate::dynamics::ledger::WorkDone;
 use crate::dynamics::load::LoadFactor;
@@ -144,6 +145,17 @@ impl Stepper for Implicit<'_> {
 
     fn work(&self) -> Work {
         self.work
+    }
+
+    fn freeze(&self) -> Vec<u8> {
+        let state = (self.taken, &self.motion, &self.multipliers, &self.left_over, self.done, self.work);
+        to_bytes(&state)
+    }
+
+    fn thaw(&mut self, bytes: &[u8]) -> Result<()> {
+        (self.taken, self.motion, self.multipliers, self.left_over, self.done, self.work) =
+            from_bytes(bytes)?;
+        Ok(())
     }
 }
 

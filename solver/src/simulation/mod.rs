@@ -1,10 +1,11 @@
 //! A run in time: a model, how it is stepped, and the switches from elements to particles on the way.
 //!
-//! [`plan`] says what to do, [`run`] does it and [`outcome`] is what comes out. Between two switches the model stays as it is and one
+//! [`plan`] says what to do, [`run()`] does it, [`outcome`] is what comes out, and [`resume`] goes on from a checkpoint. Between two switches the model stays as it is and one
 //! of the schemes of [`crate::dynamics`] steps it; a switch builds the next model and hands over the motion ([`crate::transfer`]).
 
 mod boxes;
 mod check;
+mod checkpoint;
 mod clock;
 mod explicit;
 mod implicit;
@@ -20,4 +21,4 @@ mod two_rates;
 
 pub use outcome::{Energies, Outcome, Snapshot};
 pub use plan::{Plan, Step, Stepping, SwitchRule, When};
-pub use run::run;
+pub use run::{resume, run};

@@ -75,6 +75,14 @@ pub struct Snapshot<'a> {
     pub switches: usize,
     /// Bonds that have lost stiffness so far, each time counted.
     pub losses: usize,
+    pub(super) freeze: &'a dyn Fn() -> Vec<u8>,
+}
+
+impl Snapshot<'_> {
+    /// What [`super::resume`] needs to go on from here, bit by bit.
+    pub fn checkpoint(&self) -> Vec<u8> {
+        (self.freeze)()
+    }
 }
 
 /// The end of a run.

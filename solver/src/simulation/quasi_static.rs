@@ -6,6 +6,7 @@
 use super::clock::Clock;
 use super::implicit::{difference, look};
 use super::segment::{Look, Stepper};
+use crate::checkpoint::{from_bytes, to_bytes};
 use crate::dynamics::State;
 use crate::dynamics::ledger::WorkDone;
 use crate::dynamics::load::LoadFactor;
@@ -80,5 +81,14 @@ impl Stepper for Equilibria<'_> {
 
     fn work(&self) -> Work {
         self.work
+    }
+
+    fn freeze(&self) -> Vec<u8> {
+        to_bytes(&(self.taken, &self.motion, &self.multipliers, self.done, self.work))
+    }
+
+    fn thaw(&mut self, bytes: &[u8]) -> Result<()> {
+        (self.taken, self.motion, self.multipliers, self.done, self.work) = from_bytes(bytes)?;
+        Ok(())
     }
 }

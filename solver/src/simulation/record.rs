@@ -10,9 +10,10 @@ use crate::error::Result;
 use crate::model::{Model, Part};
 use crate::transfer::report::SwitchReport;
 use crate::work::Work;
+use serde::{Deserialize, Serialize};
 
 /// What a run leaves behind.
-#[derive(Default)]
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
 pub(super) struct Record {
     /// Counted work.
     pub work: Work,
@@ -23,6 +24,7 @@ pub(super) struct Record {
     /// Wall time of the switches, in s.
     pub switch_seconds: f64,
     /// Bonds that have broken, with what is left of them; `None` where nothing breaks.
+    #[serde(skip)]
     pub breaking: Option<Breaking>,
 }
 

@@ -1,8 +1,10 @@
 //! From one switch to the next: steps, snapshots, and rules asked on step boundaries.
 
+use super::checkpoint::Frozen;
 use super::clock::Clock;
 use super::outcome::{Energies, Snapshot};
 use super::plan::Plan;
+use super::record::Record;
 use super::switching::{Job, Rules};
 use crate::dynamics::State;
 use crate::dynamics::breaking::Breaking;
@@ -11,6 +13,7 @@ use crate::error::{Error, Result};
 use crate::model::Model;
 use crate::stage::{Stage, timed};
 use crate::work::Work;
+use serde::{Deserialize, Serialize};
 
 /// A scheme on one model.
 pub(super) trait Stepper {
@@ -26,6 +29,10 @@ pub(super) trait Stepper {
     fn breaking(&self) -> Option<&Breaking> {
         None
     }
+    /// All that changes from step to step.
+    fn freeze(&self) -> Vec<u8>;
+    /// Puts back what the same stepper gave.
+    fn thaw(&mut self, bytes: &[u8]) -> Result<()>;
 }
 
 /// A moment of a stepper.
@@ -43,10 +50,16 @@ pub(super) struct Look {
     pub reactions: Vec<f64>,
 }
 
-/// What a run has come to, over all its steppers.
+/// A run on its way, over all its steppers.
 pub(super) struct Course<'a> {
     pub plan: &'a Plan<'a>,
     pub rules: Rules<'a>,
+    pub so_far: SoFar,
+}
+
+/// What a run has come to.
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
+pub(super) struct SoFar {
     /// Energies when the present stepper began, its own kinetic and strain energy left out.
     base: Energies,
     /// Kinetic and strain energy when the last stepper ended; `None` before the first.
@@ -61,6 +74,13 @@ pub(super) struct Course<'a> {
     pub worst_closure: f64,
 }
 
+/// Where a stepper begins: at the state it was made from, or where a checkpoint was.
+pub(super) struct Beginning<'a> {
+    /// Time of that state, in s.
+    pub since: f64,
+    pub frozen: Option<&'a Frozen>,
+}
+
 /// How a segment ended.
 pub(super) struct Ending {
     pub look: Look,
@@ -73,16 +93,7 @@ pub(super) struct Ending {
 
 impl<'a> Course<'a> {
     pub fn new(plan: &'a Plan<'a>, rules: Rules<'a>) -> Self {
-        Course {
-            plan,
-            rules,
-            base: Energies::default(),
-            ended: None,
-            next_output: 0,
-            merged: 0,
-            switches: 0,
-            worst_closure: 0.0,
-        }
+        Course { plan, rules, so_far: SoFar::default() }
     }
 
     /// Goes on until something is to be switched, or to the end.
@@ -94,10 +105,19 @@ impl<'a> Course<'a> {
         model: &Model,
         stepper: &mut dyn Stepper,
         clock: &Clock,
+        (beginning, record): (&Beginning, &Record),
         watch: &mut dyn FnMut(&Snapshot) -> std::result::Result<(), E>,
     ) -> std::result::Result<Ending, E> {
-        self.begin(&stepper.look()?);
-        let mut k = 0;
+        let mut k = match beginning.frozen {
+            None => {
+                self.begin(&stepper.look()?);
+                0
+            }
+            Some(frozen) => {
+                stepper.thaw(&frozen.stepper)?;
+                frozen.steps
+            }
+        };
         loop {
             if clock.reaching(self.rules.next_time()) <= k {
                 let now = clock.time(k) + clock.slack();
@@ -106,15 +126,28 @@ impl<'a> Course<'a> {
                     return Ok(self.end(stepper.look()?, jobs, now));
                 }
             }
-            if self.next_output <= self.plan.outputs && clock.nearest(self.output_time()) <= k {
+            if self.output_is_due(clock, k) {
                 let look = stepper.look()?;
-                let losses = stepper.breaking().map_or(0, |b| b.losses().len());
-                self.show(model, &look, losses, watch)?;
-                self.next_output += 1;
-                while self.next_output <= self.plan.outputs && clock.nearest(self.output_time()) <= k {
-                    self.next_output += 1;
-                    self.merged += 1;
+                self.so_far.next_output += 1;
+                while self.output_is_due(clock, k) {
+                    self.so_far.next_output += 1;
+                    self.so_far.merged += 1;
                 }
+                let energies = self.energies(&look);
+                self.so_far.worst_closure = self.so_far.worst_closure.max(energies.closure());
+                let (course, stepper) = (&*self, &*stepper);
+                let snapshot = Snapshot {
+                    model,
+                    state: &look.state,
+                    factor: course.plan.loads.at(look.state.time),
+                    energies,
+                    gap: look.gap,
+                    reactions: &look.reactions,
+                    switches: course.so_far.switches,
+                    losses: stepper.breaking().map_or(0, |b| b.losses().len()),
+                    freeze: &|| Frozen::of(course, (model, record), beginning.since, (k, stepper)).seal(),
+                };
+                timed(Stage::Output, || watch(&snapshot))?;
             }
             if k == clock.count {
                 return Ok(self.end(stepper.look()?, Vec::new(), clock.time(k)));
@@ -126,70 +159,52 @@ impl<'a> Course<'a> {
         }
     }
 
+    fn output_is_due(&self, clock: &Clock, step: usize) -> bool {
+        self.so_far.next_output <= self.plan.outputs && clock.nearest(self.output_time()) <= step
+    }
+
     fn output_time(&self) -> f64 {
-        self.next_output as f64 * self.plan.end_s / self.plan.outputs as f64
+        self.so_far.next_output as f64 * self.plan.end_s / self.plan.outputs as f64
     }
 
     /// What a new stepper begins with is new energy, less what work brought.
     fn begin(&mut self, look: &Look) {
         let energy = look.kinetic + look.strain;
-        match self.ended {
+        match self.so_far.ended {
             None => {
                 // Nothing came before: the first state is where work begins to count.
-                self.base.initial = energy;
+                self.so_far.base.initial = energy;
                 self.add_work(&(-1.0 * look.done));
             }
-            Some(before) => self.base.transfer += energy - before - look.done.total(),
+            Some(before) => self.so_far.base.transfer += energy - before - look.done.total(),
         }
     }
 
     fn add_work(&mut self, done: &WorkDone) {
-        self.base.external += done.external;
-        self.base.damping += done.damping;
-        self.base.interface += done.interface;
-        self.base.contact += done.contact;
-        self.base.fracture += done.fracture;
+        self.so_far.base.external += done.external;
+        self.so_far.base.damping += done.damping;
+        self.so_far.base.interface += done.interface;
+        self.so_far.base.contact += done.contact;
+        self.so_far.base.fracture += done.fracture;
     }
 
     fn energies(&self, look: &Look) -> Energies {
         Energies {
             kinetic: look.kinetic,
             strain: look.strain,
-            external: self.base.external + look.done.external,
-            damping: self.base.damping + look.done.damping,
-            interface: self.base.interface + look.done.interface,
-            contact: self.base.contact + look.done.contact,
-            fracture: self.base.fracture + look.done.fracture,
-            ..self.base
+            external: self.so_far.base.external + look.done.external,
+            damping: self.so_far.base.damping + look.done.damping,
+            interface: self.so_far.base.interface + look.done.interface,
+            contact: self.so_far.base.contact + look.done.contact,
+            fracture: self.so_far.base.fracture + look.done.fracture,
+            ..self.so_far.base
         }
     }
 
     fn end(&mut self, look: Look, jobs: Vec<Job>, now: f64) -> Ending {
         let energies = self.energies(&look);
         self.add_work(&look.done);
-        self.ended = Some(look.kinetic + look.strain);
+        self.so_far.ended = Some(look.kinetic + look.strain);
         Ending { look, energies, jobs, now }
-    }
-
-    fn show<E>(
-        &mut self,
-        model: &Model,
-        look: &Look,
-        losses: usize,
-        watch: &mut dyn FnMut(&Snapshot) -> std::result::Result<(), E>,
-    ) -> std::result::Result<(), E> {
-        let energies = self.energies(look);
-        self.worst_closure = self.worst_closure.max(energies.closure());
-        let snapshot = Snapshot {
-            model,
-            state: &look.state,
-            factor: self.plan.loads.at(look.state.time),
-            energies,
-            gap: look.gap,
-            reactions: &look.reactions,
-            switches: self.switches,
-            losses,
-        };
-        timed(Stage::Output, || watch(&snapshot))
     }
 }

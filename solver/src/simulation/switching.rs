@@ -14,9 +14,11 @@ use crate::transfer::region::{Region, cells_in};
 use crate::transfer::report::SwitchReport;
 use crate::transfer::substitution::{Origin, Switch, substitute};
 use crate::work::Work;
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 
 /// A box whose elements are to be replaced now.
+#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
 pub(super) struct Job {
     rule: usize,
     block: Block,
@@ -25,10 +27,15 @@ pub(super) struct Job {
 /// The rules of a plan and how far each has come.
 pub(super) struct Rules<'a> {
     rules: &'a [SwitchRule<'a>],
-    progress: Vec<Progress>,
+    /// How far each has come.
+    pub progress: Vec<Progress>,
+    /// What was replaced so far, in order.
+    pub done: Vec<Job>,
 }
 
-struct Progress {
+/// How far a rule has come.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub(super) struct Progress {
     /// When it wants to be asked, in s; infinite when it is through.
     next_s: f64,
     /// Times that it chose something.
@@ -60,7 +67,7 @@ impl<'a> Rules<'a> {
             filled: Vec::new(),
             pieces: (0..model.parts.len()).filter(|&p| model.parts[p].name() == rule.body).collect(),
         };
-        Rules { rules: &plan.switches, progress: plan.switches.iter().map(of).collect() }
+        Rules { rules: &plan.switches, progress: plan.switches.iter().map(of).collect(), done: Vec::new() }
     }
 
     /// When the next rule wants to be asked, in s.
@@ -150,6 +157,7 @@ impl<'a> Rules<'a> {
             reports.push(self.replace(job.rule, part, region, (&mut *model, &mut *state), factor, work)?);
         }
         if !reports.is_empty() {
+            self.done.push(*job);
             return Ok(reports);
         }
         let SwitchRule { name, body, .. } = &self.rules[job.rule];

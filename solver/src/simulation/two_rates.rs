@@ -3,6 +3,7 @@
 use super::clock::Clock;
 use super::implicit::look;
 use super::segment::{Look, Stepper};
+use crate::checkpoint::{from_bytes, to_bytes};
 use crate::dynamics::State;
 use crate::dynamics::ledger::WorkDone;
 use crate::dynamics::load::LoadFactor;
@@ -83,5 +84,15 @@ impl Stepper for TwoRates<'_> {
 
     fn work(&self) -> Work {
         self.work
+    }
+
+    fn freeze(&self) -> Vec<u8> {
+        to_bytes(&(self.taken, self.multirate.freeze(), self.work))
+    }
+
+    fn thaw(&mut self, bytes: &[u8]) -> Result<()> {
+        let sides: Vec<u8>;
+        (self.taken, sides, self.work) = from_bytes(bytes)?;
+        self.multirate.thaw(&sides)
     }
 }

@@ -8,6 +8,8 @@
 //! What fires is widened by a buffer of at least the elements around it. What has fired stays, or goes back below a release value.
 
 use super::region::{centre, measure};
+use crate::dem::block::Block;
+use crate::dem::grid::{Boundary, Grid};
 use crate::error::{Error, Result};
 use crate::fem::continuum::Continuum;
 use crate::fem::quadrature::tensor_gauss;
@@ -142,14 +144,27 @@ fn averaged_stress(body: &Continuum, displacement: &[f64], length: f64) -> Resul
         let stress = stress_at(body, displacement, cell, &[[0.0; 3]])?[0];
         own.push((centre(mesh, cell), measure(mesh, cell), Vector6::from(stress.voigt)));
     }
+    if length == 0.0 {
+        return Ok(own.into_iter().map(|(.., stress)| Stress { voigt: stress.into() }).collect());
+    }
+    // Centres at just this distance count, whatever their rounding.
+    let radius = 0.5 * length * (1.0 + 1e-9);
+    let centres: Vec<Vec3> = own.iter().map(|(x, ..)| *x).collect();
+    let around = |pick: fn(&Vec3, &Vec3) -> Vec3| centres.iter().copied().reduce(|a, b| pick(&a, &b));
+    let (Some(min), Some(max)) = (around(|a, b| a.inf(b)), around(|a, b| a.sup(b))) else {
+        return Ok(Vec::new());
+    };
+    let grid = Grid::new(mesh.space, Block { min, max }, Boundary::Closed, &centres, radius);
     let mean = |x: &Vec3| {
-        // Half an element's rounding on the radius: centres at just this distance count.
-        let near = own.iter().filter(|(y, ..)| (y - x).norm() <= 0.5 * length * (1.0 + 1e-9));
-        let (sum, weight) = near
-            .fold((Vector6::zeros(), 0.0), |(s, w), (_, volume, stress)| (s + stress * *volume, w + volume));
+        let (mut sum, mut weight) = (Vector6::zeros(), 0.0);
+        grid.for_each_within(*x, radius, |near| {
+            let (_, volume, stress) = &own[near.point];
+            sum += stress * *volume;
+            weight += volume;
+        });
         Stress { voigt: (sum / weight).into() }
     };
-    Ok(own.iter().map(|(x, ..)| mean(x)).collect())
+    Ok(centres.iter().map(mean).collect())
 }
 
 /// `η_e / √((‖u‖² + ‖e‖²)/N)` of every element.

@@ -4,6 +4,7 @@
 
 mod cost;
 mod effects;
+mod stability;
 
 use super::check::{print, style};
 use crate::args::{Studied, Study};
@@ -14,6 +15,7 @@ use seam_cases::file::SceneFile;
 use seam_cases::result::CaseResult;
 use seam_cases::write;
 use seam_reports::exit::Exit;
+use seam_reports::record::Recorded;
 use seam_reports::terminal;
 use std::collections::BTreeMap;
 
@@ -22,6 +24,7 @@ pub fn study(words: &Study) -> Result<Exit> {
     match words {
         Study::Cost(words) => cost::cost(words),
         Study::Effects(words) => effects::effects(words),
+        Study::Stability(words) => stability::stability(words),
         Study::Alone(words) => cost::alone(words),
     }
 }
@@ -44,7 +47,7 @@ fn finish(words: &Studied, kind: &str, found: &[CaseResult]) -> Result<Exit> {
             eprintln!("{}", path.display());
         }
     }
-    let judged = results::judged(found, BTreeMap::new())?;
+    let judged = results::judged(found, BTreeMap::new(), &Recorded::project()?);
     print(&terminal::table(&judged, style()))?;
     Ok(judged.exit(false))
 }

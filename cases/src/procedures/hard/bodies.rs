@@ -121,7 +121,7 @@ impl Sandwich {
     fn network(&self) -> Solved<Network> {
         let block = Block::new(self.space, self.corner(1.0, 0.0), self.corner(2.0, 1.0))?;
         let matter = Matter { density: self.density, thickness_m: self.thickness_m };
-        cubic(self.space, block, self.rows, self.young_pa, matter)
+        cubic((self.space, block), self.rows, self.young_pa, matter, Skin::Weighted)
     }
 }
 
@@ -129,7 +129,13 @@ impl Sandwich {
 ///
 /// # Errors
 /// Numbers that give no lattice or bond.
-pub fn cubic(space: Space, block: Block, rows: usize, young_pa: f64, matter: Matter) -> Solved<Network> {
+pub fn cubic(
+    (space, block): (Space, Block),
+    rows: usize,
+    young_pa: f64,
+    matter: Matter,
+    skin: Skin,
+) -> Solved<Network> {
     let kind = match space {
         Space::Plane => LatticeKind::Square,
         Space::Solid => LatticeKind::SimpleCubic,
@@ -140,7 +146,7 @@ pub fn cubic(space: Space, block: Block, rows: usize, young_pa: f64, matter: Mat
     let area = PI * (0.5 * ratio * a).powi(2);
     let across = if space == Space::Plane { matter.thickness_m } else { a };
     let material = BondMaterial { young_pa: young_pa * across * a / area, poisson: 0.3 };
-    let recipe = BondRecipe { material, section: Section::Uniform { ratio }, skin: Skin::Weighted };
+    let recipe = BondRecipe { material, section: Section::Uniform { ratio }, skin };
     bond_network(&particles.arrangement, &particles.pairs, &recipe)
 }
 

@@ -53,7 +53,7 @@ pub fn run(setting: &Setting, result: &mut CaseResult) -> Result<()> {
             let model = bonded(network);
             let bound = critical::bound(&model).map_err(refuse)?.step_s;
             let mut run = Unrefused::new(&model).map_err(refuse)?;
-            let exact = run.critical_step();
+            let exact = run.critical_step(500);
             let safe = bound <= exact && exact <= 2.0 * bound && run.bounded(bound, steps).map_err(refuse)?;
             result.work += run.work;
             Ok(safe && modes(space, material, ratio) <= MODES)

@@ -28,7 +28,7 @@ const UNCLOSED: f64 = 1e-9;
 pub fn run(setting: &Setting, result: &mut CaseResult) -> Result<()> {
     let steps = setting.count("steps", 10)?;
     let search =
-        Search { from: 1.0, to: setting.number("contrast_to")?, tolerance: setting.number("width")? };
+        Search { from: 1e4, to: setting.number("contrast_to")?, tolerance: setting.number("width")? };
     let ties = [(Tying::Pointwise, "pointwise"), (Tying::Mortar, "mortar")];
     for (space, where_) in SPACES {
         for (tying, tie) in ties {
@@ -86,7 +86,7 @@ fn mismatch<'a>(rows: impl Iterator<Item = &'a [(usize, f64)]>, v: &[f64]) -> f6
 
 fn explicit(model: &Model, steps: usize, work: &mut Work) -> seam_solver::error::Result<bool> {
     let bound = critical::bound(model)?.step_s;
-    let exact = Unrefused::new(model)?.critical_step();
+    let exact = Unrefused::new(model)?.critical_step(500);
     let rest = State::at_rest(Numbering::new(model).len());
     let mut run = Explicit::new(model, Options { step_s: bound, ..Options::default() }, &rest)?;
     run.advance(steps as u64)?;

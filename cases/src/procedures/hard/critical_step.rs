@@ -50,7 +50,7 @@ pub fn run(setting: &Setting, result: &mut CaseResult) -> Result<()> {
         let refuse = |e| setting.solver(e);
         let bound = critical::bound(&body.model).map_err(refuse)?.step_s;
         let mut run = Unrefused::new(&body.model).map_err(refuse)?;
-        let exact = run.critical_step();
+        let exact = run.critical_step(2000);
         let below = run.growth(0.99 * exact, steps).map_err(refuse)?;
         result.quantities.push(within(
             [&format!("bounded-{}", body.id), &format!("Growth over {steps} steps of 0.99 critical, {}", body.name), "1"],
@@ -109,7 +109,7 @@ fn admit(model: &Model, step_s: f64) -> seam_solver::error::Result<()> {
 fn two_rates(setting: &Setting, space: Space, id: &str, result: &mut CaseResult) -> Result<()> {
     let refuse = |e| setting.solver(e);
     let model = Sandwich::of(setting, space)?.cantilever(1.0).map_err(refuse)?;
-    let exact = Unrefused::new(&alone(model.parts[1].clone())).map_err(refuse)?.critical_step();
+    let exact = Unrefused::new(&alone(model.parts[1].clone())).map_err(refuse)?.critical_step(2000);
     let steps = setting.count("searched_steps", 100)?;
     let mut fates = Vec::new();
     for method in [Method::GravouilCombescure, Method::PrakashHjelmstad] {

@@ -31,7 +31,8 @@ pub fn run(setting: &Setting, result: &mut CaseResult) -> Result<()> {
     let finest = setting.count_of_tier("finest", 16)?;
     for (space, id) in SPACES {
         // In space three meshes as fine would not be quick.
-        let (cells, finest) = if space == Space::Plane { (cells, finest) } else { (cells / 2, finest / 2) };
+        let (cells, finest) =
+            if space == Space::Plane { (cells, finest) } else { (3 * cells / 4, finest / 2) };
         let (work, counter) = (&mut Work::default(), &mut result.work);
         let mut tip = |poisson: f64, n: usize, formulation: Formulation| {
             deflection(setting, space, poisson, n, formulation, work).map_err(|e| setting.solver(e))

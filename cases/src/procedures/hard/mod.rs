@@ -1,7 +1,7 @@
 //! Hard cases: each says when it passes, and how far it is from not passing.
 
 pub(super) mod bad_states;
-mod bodies;
+pub(super) mod bodies;
 pub(super) mod bond_radius;
 pub(super) mod constraints;
 pub(super) mod contact_after_break;

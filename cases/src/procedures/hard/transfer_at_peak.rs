@@ -13,6 +13,7 @@ use crate::result::CaseResult;
 use seam_solver::coupling::{Method as Tying, Multipliers};
 use seam_solver::dem::arrangement::Matter;
 use seam_solver::dem::block::Block;
+use seam_solver::dem::skin::Skin;
 use seam_solver::dynamics::damping::Damping;
 use seam_solver::dynamics::forces::Rotations;
 use seam_solver::dynamics::load::LoadFactor;
@@ -120,7 +121,8 @@ fn switched(setting: &Setting, space: Space, rows: usize, explicit: bool, work: 
     let depth = if space == Space::Solid { 1.0 } else { 0.0 };
     let third = LENGTH / 3.0;
     let block = Block::new(space, Vec3::new(third, 0.0, 0.0), Vec3::new(2.0 * third, 1.0, depth))?;
-    let fill = |block: Block, matter: Matter| cubic(space, block, rows, young_pa, matter);
+    let fill =
+        |block: Block, matter: Matter| cubic((space, block), rows, young_pa, matter, Skin::SecondMoment);
     let switch = SwitchRule {
         name: "middle".to_owned(),
         body: "beam".to_owned(),

@@ -39,9 +39,9 @@ impl Unrefused {
         Ok(Unrefused { system, forces, interface, work })
     }
 
-    /// `2/ω_max` of the untied parts by power iteration, in s.
-    pub fn critical_step(&self) -> f64 {
-        critical::iterate(&self.system, &self.forces, 2000)
+    /// `2/ω_max` of the untied parts by power iteration, in s: from above.
+    pub fn critical_step(&self, iterations: usize) -> f64 {
+        critical::iterate(&self.system, &self.forces, iterations)
     }
 
     /// Largest `√(uᵀM u)` over that of the start, which is at rest and has a share of every mode; it is not followed beyond 1e9.

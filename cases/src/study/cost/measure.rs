@@ -48,7 +48,7 @@ pub fn measure(
     runs.sort_by(|a, b| a.error.total_cmp(&b.error));
     let (least, most) = (runs[0].error, runs[runs.len() - 1].error);
     let middle = &runs[runs.len() / 2];
-    let mut times = vec![(middle.seconds, middle.stages)];
+    let mut times: Vec<(f64, Seconds)> = runs.iter().map(|run| (run.seconds, run.stages)).collect();
     let again = match repeats {
         Repeats::IfShort => middle.seconds < SHORT_S,
         Repeats::Below(limit) => middle.seconds < limit,

@@ -11,16 +11,16 @@ use super::target::Target;
 use crate::error::{Error, Result};
 use crate::file::SceneFile;
 use crate::result::{CaseResult, CostDiagram, CostPoint, CostSetting};
-use crate::scene::Tier;
 use crate::scene::study::CostDeclaration;
+use crate::scene::{Hypothesis, Tier};
 use std::collections::BTreeSet;
 
 /// Packings per random setting.
 const SEEDS: [u64; 2] = [3, 7];
 /// Runs shorter than this are timed again, in s.
 const REPEATED_S: f64 = 2.0;
-/// A level is taken to cost at most this many times the one before: twice the rows in a solid, and twice the steps.
-const GROWTH: f64 = 16.0;
+/// A level is taken to cost this many times the one before, in the plane and in the solid: twice the rows, solved directly.
+const GROWTH: [f64; 2] = [8.0, 64.0];
 /// The variant, and the legend, of the setting that others are compared with.
 const PAPER_LIKE: &str = "paper-like";
 
@@ -132,9 +132,8 @@ impl Diagram<'_> {
         for setting in &self.settings {
             let mut points: Vec<CostPoint> = Vec::new();
             for level in 0..self.resolution.len() {
-                let before =
-                    points.last().map_or(0.0, |p| if p.error.is_some() { p.seconds } else { f64::INFINITY });
-                points.push(self.point(study, (&target, setting), level, before, around)?);
+                let expected = expected(&points, study.file.scene.hypothesis);
+                points.push(self.point(study, (&target, setting), level, expected, around)?);
             }
             diagram.settings.push(CostSetting { name: setting.name.clone(), points });
         }
@@ -151,13 +150,13 @@ impl Diagram<'_> {
         Ok((base.with(&more)?, format!("{what}, finer than all levels: {name}")))
     }
 
-    /// One point; `before` is what the level before took, in s.
+    /// One point; `expected` is what it may take, in s.
     fn point(
         &self,
         study: &Study,
         (target, setting): (&Target, &Setting),
         level: usize,
-        before: f64,
+        expected: f64,
         around: &Surroundings,
     ) -> Result<CostPoint> {
         let gap = |level: String, why: String| CostPoint { level, failed: Some(why), ..CostPoint::default() };
@@ -171,10 +170,10 @@ impl Diagram<'_> {
         let (name, changes) = self.resolution.level(&base, level);
         let what = format!("{}, {name}", setting.name);
         around.onlooker.begin(&what);
-        if before.is_finite() && before * GROWTH > around.longest_s.max(GROWTH * REPEATED_S) {
-            around.onlooker.done(&what, "left out, it would take too long");
+        if expected > around.longest_s {
+            around.onlooker.done(&what, "left out, it may take too long");
             let why = format!(
-                "left out: the level before took {before:.1} s, so this one may take longer than {} s (--longest)",
+                "left out: by the levels before it may take {expected:.0} s, longer than {} s (--longest)",
                 around.longest_s
             );
             return Ok(gap(name, why));
@@ -204,6 +203,13 @@ impl Diagram<'_> {
         around.onlooker.done(&what, &how);
         Ok(CostPoint { level: name, ..point })
     }
+}
+
+/// What the next level may take, in s, by the last one that was measured; nothing is known before.
+fn expected(points: &[CostPoint], hypothesis: Hypothesis) -> f64 {
+    let growth = GROWTH[usize::from(hypothesis == Hypothesis::Solid)];
+    let last = points.iter().rposition(|p| p.error.is_some());
+    last.map_or(0.0, |last| points[last].seconds * growth.powi((points.len() - last) as i32))
 }
 
 /// Settings that differ in what is computed; of two that do not, the first.

@@ -1,7 +1,7 @@
 //! Whether rotations are finite, and whether they may be taken as small.
 
 use super::super::evaluate::Solved;
-use super::{on, watched};
+use super::{off, on, watched};
 use crate::file::SceneFile;
 use crate::result::{EffectUse, Indicator};
 use crate::scene::dynamics::Rotations;
@@ -15,6 +15,9 @@ pub fn effect(file: &SceneFile, solved: &Solved) -> EffectUse {
     if file.scene.dynamics.as_ref().is_some_and(|d| d.rotations == Rotations::Finite) {
         let why = format!("the scene asks for it; the largest rotation is {largest:.1e} rad");
         return on("finite-rotation", why, solved.solution.work.bond_updates);
+    }
+    if let Some(why) = &file.scene.linear {
+        return off("finite-rotation", format!("the problem is posed in linear theory: {why}"));
     }
     let about = "the largest rotation of a particle or an element, in rad,".to_owned();
     watched("finite-rotation", Indicator { about, value: largest, limit: LARGE_ROTATION })

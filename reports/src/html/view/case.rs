@@ -1,5 +1,6 @@
 //! What the part of a case shows.
 
+use super::switches::{self, Switches};
 use crate::activity::Activity;
 use crate::format::{self, percent, share};
 use crate::html::prose;
@@ -24,6 +25,7 @@ pub(crate) struct Case {
     pub(super) sketches: Vec<Figure>,
     pub(super) pictures: Vec<Figure>,
     curves: Vec<[String; 7]>,
+    switches: Option<Switches>,
     work: Vec<(&'static str, String)>,
     notes: Vec<String>,
 }
@@ -55,6 +57,7 @@ pub(super) fn view(judged: &CaseJudgement, measured: Option<&CaseResult>) -> Cas
         sketches: m.pictures.iter().filter_map(plots::sketch::sketch).collect(),
         pictures: m.pictures.iter().filter_map(plots::picture::picture).collect(),
         curves: judged.curves.iter().map(curve).collect(),
+        switches: switches::view(&m.switches),
         work: work(judged),
         notes: m.notes.clone(),
     }

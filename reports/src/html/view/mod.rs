@@ -8,6 +8,7 @@ mod failures;
 mod numbers;
 mod stability;
 mod studies;
+mod switches;
 
 use crate::activity::Activity;
 use crate::exit::Exit;

@@ -162,9 +162,7 @@ pub(super) fn ablations(results: &Results) -> Vec<AblationView> {
 
 fn ablation(case: &str, a: &AblationJudgement) -> AblationView {
     let guard = match &a.indicator {
-        Some(i) => {
-            format!("{} {}, limit {}", i.about.trim_end_matches(','), significant(i.value, 2), value(i.limit))
-        }
+        Some(i) => format!("{} of {}", significant(i.value, 2), value(i.limit)),
         None => "–".to_owned(),
     };
     AblationView {

@@ -10,6 +10,7 @@ use crate::model::{Model, Part};
 use crate::solve::kkt::{EPSILONS, Kkt, Layout};
 use crate::solve::sparse::{SymmetricMatrix, Triplets};
 use crate::work::Work;
+use serde::{Deserialize, Serialize};
 
 /// How a side goes through time.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -36,7 +37,7 @@ enum Inverse {
 }
 
 /// Displacement, velocity and acceleration of a side.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub(super) struct SideMotion {
     pub u: Vec<f64>,
     pub v: Vec<f64>,
