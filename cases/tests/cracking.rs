@@ -1,5 +1,6 @@
 //! Scenes that crack: what is accepted, what an error says, and what a run tells.
 
+use seam_cases::checkpoint::Checkpoints;
 use seam_cases::file::SceneFile;
 use seam_cases::folder::Folder;
 use seam_cases::overrides::Override;
@@ -62,7 +63,9 @@ fn read(changes: &[&str]) -> Result<SceneFile, String> {
 }
 
 fn run(changes: &[&str]) -> Result<CaseResult, String> {
-    seam_cases::study::run(&read(changes)?, Tier::Quick).map(|run| run.result).map_err(|e| e.to_string())
+    seam_cases::study::run(&read(changes)?, Tier::Quick, &Checkpoints::default())
+        .map(|run| run.result)
+        .map_err(|e| e.to_string())
 }
 
 fn value(result: &CaseResult, id: &str) -> f64 {
