@@ -399,6 +399,9 @@ pub struct Picture {
     pub radii: Vec<f64>,
     /// Bonds as pairs of particle indices.
     pub bonds: Vec<[usize; 2]>,
+    /// Bonds that are broken, likewise.
+    #[serde(default)]
+    pub broken: Vec<[usize; 2]>,
     /// Points that are held.
     pub supports: Vec<[f64; 2]>,
     /// Loads as start point and direction (unit vector).

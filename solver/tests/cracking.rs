@@ -260,6 +260,7 @@ fn the_envelope_skips_what_snaps_back() {
         site: Site::Bond(0),
         bonds: vec![0],
         integrity: vec![0.0],
+        places: Vec::new(),
         factor: displacement,
         displacement,
         force,

@@ -1,7 +1,10 @@
 //! From a scene to a [`Model`] of the solver.
 
+mod blueprint;
 pub mod calibration;
 mod conditions;
+pub mod cracking;
+mod failure;
 mod mesh;
 mod particles;
 mod place;
@@ -16,8 +19,9 @@ use crate::file::SceneFile;
 use crate::scene::body::{Body, Method};
 use crate::scene::number::Number;
 use crate::scene::{Hypothesis, Scene};
+use seam_solver::failure::Failure;
 use seam_solver::fem::elasticity::{self, Elasticity};
-use seam_solver::model::{Model, Part};
+use seam_solver::model::{Model, Part, PointValue};
 use seam_solver::space::{Space, Vec3};
 use seam_solver::work::Work;
 use std::cell::Cell;
@@ -29,6 +33,8 @@ pub struct Built {
     pub model: Model,
     /// Name of the support behind each entry of the model's supports.
     pub held_by: Vec<String>,
+    /// Laws by which bonds break, with the part of each.
+    pub laws: Vec<(usize, Failure)>,
     /// Packings, calibrations: what a reader must know.
     pub notes: Vec<String>,
     /// Work of the calibrations, whether they were done now or remembered.
@@ -52,6 +58,16 @@ pub(crate) enum Refusal {
 }
 
 impl Refusal {
+    /// As an error of the solver, for where it asks for particles.
+    fn of_switch(self, name: &str) -> seam_solver::error::Error {
+        let message = match self {
+            Self::Solver(error) => return error,
+            Self::Scene(fault) => format!("{}: {}; {}", fault.key, fault.message, fault.mend),
+            Self::File(error) => error.to_string(),
+        };
+        seam_solver::error::Error::Switch { what: format!("switch '{name}'"), message }
+    }
+
     fn of(self, file: &SceneFile) -> Error {
         match self {
             Self::Scene(fault) => file.error(fault),
@@ -92,22 +108,33 @@ pub fn build(file: &SceneFile) -> Result<Built> {
 fn assemble(file: &SceneFile) -> std::result::Result<Built, Refusal> {
     let context = Context::new(file)?;
     let mut notes = Vec::new();
-    let mut parts = Vec::new();
+    let (mut parts, mut particles_of) = (Vec::new(), Vec::new());
     for (name, body) in &file.scene.bodies {
         parts.push(match body.method {
             Method::Fe => Part::Continuum(mesh::continuum(&context, name, body)?),
             Method::De => {
-                let network = particles::network(&context, name, body, &mut notes)?;
+                let filled = particles::network(&context, name, body, &mut notes)?;
+                let network = filled.network.clone();
+                particles_of.push((parts.len(), filled));
                 Part::Discrete { name: name.clone(), network }
             }
         });
         check_size(&file.scene, &parts[parts.len() - 1])?;
     }
     let ties = conditions::ties(&context)?;
-    let (held_by, supports) = conditions::supports(&context, &parts)?.into_iter().unzip();
+    let supports = conditions::supports(&context, &parts)?;
     let loads = conditions::loads(&context, &parts)?;
+    failure::check_zones(&context, &parts, &supports, &loads)?;
+    let (held_by, supports): (_, Vec<PointValue>) = supports.into_iter().unzip();
+    let mut laws = Vec::new();
+    for (part, filled) in &particles_of {
+        if let Some(given) = failure::of_body(&context, parts[*part].name()) {
+            let held = supports.iter().chain(&loads).filter(|v| v.part == *part).map(|v| v.point).collect();
+            laws.push((*part, failure::law(&context, given, filled, &held)?));
+        }
+    }
     let model = Model { space: context.space, parts, ties, supports, loads };
-    Ok(Built { model, held_by, notes, calibration: context.calibration.get() })
+    Ok(Built { model, held_by, laws, notes, calibration: context.calibration.get() })
 }
 
 fn check_size(scene: &Scene, part: &Part) -> std::result::Result<(), Fault> {

@@ -4,6 +4,7 @@ use super::calibration::{self, Target, Unit};
 use super::{Context, Refusal};
 use crate::error::Fault;
 use crate::scene::body::Body;
+use crate::scene::check_notched_beam;
 use crate::scene::de::{self, Arrangement as Kind, Calibrate, De};
 use seam_solver::dem::arrangement::{Arrangement, Matter};
 use seam_solver::dem::block::Block;
@@ -12,14 +13,24 @@ use seam_solver::dem::bonding::{self, BondRecipe, Bonding, Pair};
 use seam_solver::dem::grid::Boundary;
 use seam_solver::dem::lattice::{LatticeKind, lattice};
 use seam_solver::dem::network::Network;
+use seam_solver::dem::notch::Notch;
 use seam_solver::dem::packing::{PackingRecipe, pack};
-use seam_solver::dem::section::Section;
+use seam_solver::dem::section::{self, Section};
 use seam_solver::dem::skin::Skin;
-use seam_solver::space::Space;
+use seam_solver::space::{Space, Vec3};
 use seam_solver::stage::{Stage, timed};
 
 /// A facet smaller than this share of a mean cell's side is a rounding of four particles on one circle.
 const LEAST_FACET: f64 = 1e-6;
+
+/// Bonded particles, with the area of the Voronoi facet that each bond stands for (m²); `None` where they have none, or nobody asks.
+#[derive(Debug, Clone)]
+pub struct Filled {
+    /// Particles and bonds.
+    pub network: Network,
+    /// Area of each bond.
+    pub facets: Option<Vec<f64>>,
+}
 
 /// The body, filled with bonded particles.
 pub fn network(
@@ -27,22 +38,59 @@ pub fn network(
     name: &str,
     body: &Body,
     notes: &mut Vec<String>,
-) -> Result<Network, Refusal> {
+) -> Result<Filled, Refusal> {
     if let Some(files) = &body.network {
         let folder = &context.file.folder;
         let (particles, bonds) = (folder.file(&files.particles)?, folder.file(&files.bonds)?);
-        return Ok(seam_solver::dem::network_csv::read(context.space, &particles, &bonds)?);
+        let network = seam_solver::dem::network_csv::read(context.space, &particles, &bonds)?;
+        return Ok(Filled { network, facets: None });
     }
-    let (Some(de), Some(shape)) = (&body.de, &body.cuboid) else {
-        let message = "particles need a box and the section `de`";
-        return Err(Fault::new(format!("bodies.{name}"), message, "give both").into());
-    };
     let key = format!("bodies.{name}");
+    let (Some(de), Some(block)) = (&body.de, block(context, name, body)?) else {
+        let message = "particles need a box or a notched beam, and the section `de`";
+        return Err(Fault::new(key, message, "give both").into());
+    };
+    let rows = de.rows.count(context.values, 1, &format!("{key}.de.rows"))?;
+    let filled = fill(context, &key, (body, de), (block, rows), notes)?;
+    without_notch(context, &key, body, filled, &block)
+}
+
+/// The box that a body fills but for its notch.
+pub fn block(context: &Context, name: &str, body: &Body) -> Result<Option<Block>, Refusal> {
+    let key = format!("bodies.{name}");
+    if let Some(beam) = &body.notched_beam {
+        let shape = check_notched_beam::shape(beam, context.values, &key)?;
+        let depth = context.hypothesis.thickness();
+        let (half, height) = (0.5 * shape.length, shape.depth);
+        return Ok(Some(Block::new(
+            context.space,
+            Vec3::new(-half, 0.0, 0.0),
+            Vec3::new(half, height, depth),
+        )?));
+    }
+    let Some(shape) = &body.cuboid else { return Ok(None) };
     let min = context.vector(&shape.min, &format!("{key}.box.min"))?;
     let max = context.vector(&shape.max, &format!("{key}.box.max"))?;
-    let block = Block::new(context.space, min, max)?;
-    let rows = de.rows.count(context.values, 1, &format!("{key}.de.rows"))?;
-    fill(context, &key, (body, de), (block, rows), notes)
+    Ok(Some(Block::new(context.space, min, max)?))
+}
+
+/// The filling of a box of a body, without the body's notch.
+pub fn without_notch(
+    context: &Context,
+    key: &str,
+    body: &Body,
+    filled: Filled,
+    block: &Block,
+) -> Result<Filled, Refusal> {
+    let Some(beam) = &body.notched_beam else { return Ok(filled) };
+    let shape = check_notched_beam::shape(beam, context.values, key)?;
+    let notch = Notch { tip: Vec3::new(0.0, shape.notch_depth, 0.0), angle: shape.angle };
+    if !notch.meets(block) {
+        return Ok(filled);
+    }
+    let cut = notch.cut(&filled.network, block)?;
+    let facets = filled.facets.map(|areas| cut.bonds.iter().map(|&b| areas[b]).collect());
+    Ok(Filled { network: cut.network, facets })
 }
 
 /// Particles in a box, `rows` spacings across its height; `key` is the table that holds the section `de`.
@@ -52,23 +100,36 @@ pub fn fill(
     (body, de): (&Body, &De),
     (block, rows): (Block, usize),
     notes: &mut Vec<String>,
-) -> Result<Network, Refusal> {
+) -> Result<Filled, Refusal> {
     let elasticity = context.elasticity(body)?;
     let matter = Matter { density: elasticity.density, thickness_m: context.hypothesis.thickness() };
     let filling = timed(Stage::Packing, || arrange(context, key, de, (block, rows), matter, notes))?;
-    let (count, limit) = (filling.arrangement.particles.len(), context.scene.limits.particles);
-    if count > limit {
-        let message = format!("{count} particles are more than the limit of {limit}");
-        return Err(Fault::new(
-            format!("{key}.de.rows"),
-            message,
-            "use fewer rows, or raise limits.particles",
-        )
-        .into());
-    }
+    limit(context, key, &filling.arrangement)?;
     let target = Target { elasticity, hypothesis: context.hypothesis, thickness_m: matter.thickness_m };
     let recipe = recipe(context, key, de, &filling.made, &target, notes)?;
-    Ok(bonding::bond_network(&filling.arrangement, &filling.pairs, &recipe)?)
+    bonded(context, &filling.arrangement, &filling.pairs, &recipe)
+}
+
+/// Refuses more particles than the scene allows.
+pub fn limit(context: &Context, key: &str, arrangement: &Arrangement) -> Result<(), Fault> {
+    let (count, limit) = (arrangement.particles.len(), context.scene.limits.particles);
+    if count <= limit {
+        return Ok(());
+    }
+    let message = format!("{count} particles are more than the limit of {limit}");
+    Err(Fault::new(format!("{key}.de.rows"), message, "use fewer rows, or raise limits.particles"))
+}
+
+/// Bonds, and their facets where the scene has strengths.
+pub fn bonded(
+    context: &Context,
+    arrangement: &Arrangement,
+    pairs: &[Pair],
+    recipe: &BondRecipe,
+) -> Result<Filled, Refusal> {
+    let network = bonding::bond_network(arrangement, pairs, recipe)?;
+    let asked = !context.scene.failure.is_empty();
+    Ok(Filled { network, facets: asked.then(|| section::facets(arrangement, pairs)).flatten() })
 }
 
 /// Particles in their places, and which are bonded.
@@ -79,8 +140,10 @@ struct Filling {
 }
 
 /// How the particles were placed: what calibration has to repeat.
-enum Made {
+pub enum Made {
+    /// A lattice.
     Lattice(Unit),
+    /// A random packing.
     Packing(Protocol),
 }
 
@@ -194,7 +257,7 @@ impl Protocol {
 }
 
 /// Section, material and skin of the bonds.
-fn recipe(
+pub fn recipe(
     context: &Context,
     key: &str,
     de: &De,

@@ -9,7 +9,7 @@ use crate::scene::number::Number;
 use crate::scene::switch::{Axis, Criterion, Switch};
 use seam_solver::dem::block::Block;
 use seam_solver::dem::network::Network;
-use seam_solver::error::{Error, Result};
+use seam_solver::error::Result;
 use seam_solver::model::{Model, Part};
 use seam_solver::simulation::{SwitchRule, When};
 use seam_solver::transfer::criterion::{self, Indicator, Memory};
@@ -82,16 +82,7 @@ impl<'a> Filling<'a> {
     /// # Errors
     /// What packing or calibration refuses.
     pub fn fill(&self, block: Block) -> Result<Network> {
-        self.pack(block).map_err(|refusal| match refusal {
-            Refusal::Solver(error) => error,
-            Refusal::Scene(fault) => {
-                let message = format!("{}: {}; {}", fault.key, fault.message, fault.mend);
-                Error::Switch { what: format!("switch '{}'", self.name), message }
-            }
-            Refusal::File(error) => {
-                Error::Switch { what: format!("switch '{}'", self.name), message: error.to_string() }
-            }
-        })
+        self.pack(block).map_err(|refusal| refusal.of_switch(self.name))
     }
 
     fn pack(&self, block: Block) -> std::result::Result<Network, Refusal> {
@@ -105,7 +96,8 @@ impl<'a> Filling<'a> {
         let own_rows = (rows * block.sides().y / self.height).round().max(1.0) as usize;
         let body = &context.scene.bodies[&self.switch.body];
         let mut notes = self.notes.borrow_mut();
-        let mut network = particles::fill(context, &key, (body, de), (block, own_rows), &mut notes)?;
+        let filled = particles::fill(context, &key, (body, de), (block, own_rows), &mut notes)?;
+        let mut network = particles::without_notch(context, &key, body, filled, &block)?.network;
         context.file.spoil_network(&mut network);
         self.packed.borrow_mut().push((block, network.clone()));
         Ok(network)
@@ -166,6 +158,29 @@ pub fn left_out(file: &SceneFile) -> crate::error::Result<Vec<LeftOut>> {
 }
 
 fn by_criterion(context: &Context, criterion: &Criterion, key: &str) -> std::result::Result<When, Fault> {
+    let solver = solver_criterion(context, criterion, key)?;
+    let value = |number: &crate::scene::number::Number, name: &str| {
+        number.value(context.values, &format!("{key}.{name}"))
+    };
+    Ok(When::Criterion {
+        criterion: solver,
+        every_s: match &criterion.every_s {
+            Some(every) => value(every, "every_s")?,
+            None => {
+                return Err(Fault::new(key, "it is not said how often it is asked", "give every_s, in s"));
+            }
+        },
+        most: criterion.most.count(context.values, 1, &format!("{key}.most"))?,
+        through: through(criterion),
+    })
+}
+
+/// The criterion as the solver knows it; `key` is its table.
+pub fn solver_criterion(
+    context: &Context,
+    criterion: &Criterion,
+    key: &str,
+) -> std::result::Result<criterion::Criterion, Fault> {
     let value = |number: &crate::scene::number::Number, name: &str| {
         number.value(context.values, &format!("{key}.{name}"))
     };
@@ -185,10 +200,10 @@ fn by_criterion(context: &Context, criterion: &Criterion, key: &str) -> std::res
     };
     let (trigger, buffer_m) =
         (value(&criterion.trigger, "trigger")?, value(&criterion.buffer_m, "buffer_m")?);
-    Ok(When::Criterion {
-        criterion: criterion::Criterion { indicator, trigger, buffer_m, memory },
-        every_s: value(&criterion.every_s, "every_s")?,
-        most: criterion.most.count(context.values, 1, &format!("{key}.most"))?,
-        through: [Axis::X, Axis::Y, Axis::Z].map(|axis| criterion.through.contains(&axis)),
-    })
+    Ok(criterion::Criterion { indicator, trigger, buffer_m, memory })
+}
+
+/// Axes along which the region reaches through the body.
+pub fn through(criterion: &Criterion) -> [bool; 3] {
+    [Axis::X, Axis::Y, Axis::Z].map(|axis| criterion.through.contains(&axis))
 }

@@ -4,8 +4,10 @@ use super::switches::Filling;
 use super::{Built, Context, Refusal};
 use crate::error::{Fault, Result};
 use crate::file::SceneFile;
+use crate::scene::contact::Contact;
 use crate::scene::dynamics::{self, Dynamics, Loads, Rates};
 use crate::scene::number::Number;
+use seam_solver::contact::law::{ContactLaw, Normal};
 use seam_solver::dem::arrangement::Matter;
 use seam_solver::dem::block::Block;
 use seam_solver::dem::network::Network;
@@ -66,6 +68,8 @@ fn through(
             dynamics::Rotations::Finite => Rotations::Finite,
         },
         outputs: dynamics.outputs.count(context.values, 1, "dynamics.outputs")?,
+        laws: built.laws.clone(),
+        contact: context.scene.contact.as_ref().map(|given| contact(&context, given)).transpose()?,
         switches: fillings.iter().zip(&fills).map(|(filling, fill)| filling.rule(fill)).collect(),
     };
     file.spoil_plan(&mut plan);
@@ -80,6 +84,28 @@ fn through(
     built.calibration += context.calibration.get();
     built.notes.extend(fillings.into_iter().flat_map(Filling::into_notes));
     outcome
+}
+
+fn contact(context: &Context, given: &Contact) -> std::result::Result<ContactLaw, Fault> {
+    let value = |number: &Number, key: &str| number.value(context.values, &format!("contact.{key}"));
+    let normal = match (&given.linear, &given.hertz) {
+        (Some(linear), _) => {
+            Normal::Linear { stiffness_n_m: value(&linear.stiffness_n_m, "linear.stiffness_N_m")? }
+        }
+        (None, Some(hertz)) => Normal::Hertz {
+            young_pa: value(&hertz.young_pa, "hertz.young_Pa")?,
+            poisson: value(&hertz.poisson, "hertz.poisson")?,
+        },
+        (None, None) => {
+            return Err(Fault::new("contact", "the normal force has no law", "give one of: linear, hertz"));
+        }
+    };
+    Ok(ContactLaw {
+        normal,
+        restitution: value(&given.restitution, "restitution")?,
+        friction: value(&given.friction, "friction")?,
+        stiffness_ratio: value(&given.stiffness_ratio, "stiffness_ratio")?,
+    })
 }
 
 fn stepping(context: &Context, dynamics: &Dynamics) -> std::result::Result<Stepping, Fault> {

@@ -16,6 +16,10 @@ pub enum Axis {
     Position,
     /// Time, in s.
     Time,
+    /// Displacement of the load, in m.
+    Displacement,
+    /// None: places in the x–y plane, in m.
+    Places,
 }
 
 impl Axis {
@@ -24,6 +28,8 @@ impl Axis {
         match self {
             Self::Position => "x (m)",
             Self::Time => "Time t (s)",
+            Self::Displacement => "displacement (m)",
+            Self::Places => "x (m)",
         }
     }
 }
@@ -88,7 +94,10 @@ impl Curve {
     fn beside(&self, reference: &Curve) -> Vec<[f64; 3]> {
         let theirs = reference.x.iter().zip(&reference.y);
         match self.axis {
-            Axis::Time => theirs.filter_map(|(&x, &r)| Some([x, self.at(x)?, r])).collect(),
+            Axis::Time | Axis::Displacement => {
+                theirs.filter_map(|(&x, &r)| Some([x, self.at(x)?, r])).collect()
+            }
+            Axis::Places => Vec::new(),
             Axis::Position if self.x.len() == reference.x.len() => {
                 self.y.iter().zip(theirs).map(|(&s, (&x, &r))| [x, s, r]).collect()
             }
@@ -99,6 +108,9 @@ impl Curve {
     /// Distance from `reference` over those of its stations for which `inside(x)`; a fraction. `None` if the zone
     /// holds no station, or none with a reference to relate to.
     pub fn distance(&self, reference: &Curve, norm: Norm, inside: impl Fn(f64) -> bool) -> Option<f64> {
+        if norm == Norm::Hausdorff {
+            return self.hausdorff(reference);
+        }
         let largest = reference.y.iter().fold(0.0f64, |m, r| m.max(r.abs()));
         if largest == 0.0 {
             return None;
@@ -114,7 +126,22 @@ impl Curve {
                 let miss: f64 = zone.iter().map(|(s, r)| (s - r) * r.signum()).sum();
                 (whole > 0.0).then_some(miss / whole)
             }
+            Norm::Hausdorff => None,
         }
+    }
+
+    /// Largest distance of a place of either from the nearest one of the other, in m; `None` if one has none.
+    fn hausdorff(&self, other: &Curve) -> Option<f64> {
+        let places = |c: &Curve| c.x.iter().copied().zip(c.y.iter().copied()).collect::<Vec<_>>();
+        let (own, theirs) = (places(self), places(other));
+        let farthest = |from: &[(f64, f64)], to: &[(f64, f64)]| {
+            let nearest = |a: &(f64, f64)| to.iter().map(|b| (a.0 - b.0).hypot(a.1 - b.1)).reduce(f64::min);
+            from.iter().map(nearest).try_fold(0.0, |m, d| Some(nan_max(m, d?)))
+        };
+        if own.is_empty() || theirs.is_empty() {
+            return None;
+        }
+        Some(nan_max(farthest(&own, &theirs)?, farthest(&theirs, &own)?))
     }
 }
 
@@ -145,6 +172,18 @@ mod tests {
         assert_eq!(model.distance(&reference, Norm::Largest, |x| x > 9.0), None);
         assert_eq!(model.distance(&curve([0.0; 4]), Norm::Largest, |_| true), None);
         assert!(curve([f64::NAN; 4]).distance(&reference, Norm::Largest, |_| true).unwrap().is_nan());
+    }
+
+    #[test]
+    fn the_distance_of_places_is_hausdorffs() {
+        let places = |x: &[f64], y: &[f64]| Curve { axis: Axis::Places, x: x.to_vec(), y: y.to_vec() };
+        let straight = places(&[0.0, 0.0, 0.0], &[0.0, 1.0, 2.0]);
+        // One place strays to the side, and the end is missing: the larger of both, from either side.
+        let strayed = places(&[0.0, 0.3], &[0.0, 1.0]);
+        let far = 1f64.hypot(0.3);
+        assert_eq!(strayed.distance(&straight, Norm::Hausdorff, |_| true), Some(far));
+        assert_eq!(straight.distance(&strayed, Norm::Hausdorff, |_| true), Some(far));
+        assert_eq!(straight.distance(&places(&[], &[]), Norm::Hausdorff, |_| true), None);
     }
 
     fn history(x: &[f64], y: &[f64]) -> Curve {

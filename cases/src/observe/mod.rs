@@ -1,6 +1,7 @@
 //! Reading values off a solution, or off a run.
 
 pub mod bond_stress;
+pub mod crack;
 pub mod curve;
 pub mod field;
 pub mod guard;

@@ -4,8 +4,8 @@ use super::body::{Body, Method};
 use super::de::{Arrangement, Calibrate, De};
 use super::number::Number;
 use super::{
-    Scene, check_connection, check_dynamics, check_notched_beam, check_peer, check_probe, check_size,
-    check_study, check_switch,
+    Scene, check_connection, check_dynamics, check_failure, check_notched_beam, check_peer, check_probe,
+    check_size, check_study, check_switch,
 };
 use crate::error::Fault;
 use crate::expression::{RESERVED, Values};
@@ -33,6 +33,7 @@ pub fn check(scene: &Scene, values: &Values) -> Checked {
     if let Some(dynamics) = &scene.dynamics {
         check_dynamics::check(scene, dynamics, values)?;
     }
+    check_failure::check(scene, values)?;
     check_switch::check(scene, values)?;
     for (name, probe) in &scene.probes {
         check_probe::check(scene, name, probe, values)?;
@@ -230,9 +231,9 @@ fn check_de(body: &Body, shape: &str, space: Space, values: &Values, key: &str) 
         let mend = "add a `de` table with its arrangement, or set method = \"fe\"";
         return Err(Fault::new(format!("{key}.method"), "the section `de` is missing", mend));
     };
-    if shape != "box" {
-        let message = "particles fill boxes only";
-        return Err(Fault::new(format!("{key}.{shape}"), message, "use a box, or bring a network"));
+    if !["box", "notched_beam"].contains(&shape) {
+        let message = "particles fill boxes and notched beams only";
+        return Err(Fault::new(format!("{key}.{shape}"), message, "use one of these, or bring a network"));
     }
     check_filling(de, space, values, key)
 }

@@ -1,8 +1,8 @@
 //! Checks of probes: what is read and where it is read have to fit.
 
 use super::Scene;
-use super::check::{Checked, known, vector};
-use super::probe::{Probe, Where};
+use super::check::{Checked, known, positive, vector};
+use super::probe::{Probe, Read, Where};
 use super::quantity::Zone;
 use crate::error::Fault;
 use crate::expression::Values;
@@ -24,6 +24,9 @@ pub fn check(scene: &Scene, name: &str, probe: &Probe, values: &Values) -> Check
             number.value(values, &format!("{key}.{part}[{i}]"))?;
         }
     }
+    if let Some(limit) = &probe.up_to_m {
+        positive(limit, values, &format!("{key}.up_to_m"))?;
+    }
     if probe.line.as_ref().is_some_and(|line| line.intervals == 0) {
         return Err(Fault::new(
             format!("{key}.line.intervals"),
@@ -41,9 +44,19 @@ pub fn check(scene: &Scene, name: &str, probe: &Probe, values: &Values) -> Check
 /// What is read and where it is read have to fit.
 fn place(scene: &Scene, probe: &Probe, key: &str) -> Checked {
     let place = probe.read.place();
-    if scene.dynamics.is_none() && [Where::Run, Where::Switch, Where::End].contains(&place) {
+    // A variant may go the other road: what its run does not tell is not read.
+    let breaks = scene.cracking.is_some() || (scene.dynamics.is_some() && !scene.failure.is_empty());
+    if scene.dynamics.is_none() && !breaks && [Where::Run, Where::Switch, Where::End].contains(&place) {
         let mend = "add a [dynamics] table, or remove the probe";
         return Err(Fault::new(format!("{key}.read"), "it is read in a run in time", mend));
+    }
+    if !breaks && place == Where::Crack {
+        let mend = "add a [cracking] table, or remove the probe";
+        return Err(Fault::new(format!("{key}.read"), "it is read off a path of cracking", mend));
+    }
+    if probe.up_to_m.is_some() != (probe.read == Read::EnvelopeWork) {
+        let mend = "give it with read = \"envelope-work\", and only there";
+        return Err(Fault::new(format!("{key}.up_to_m"), "the displacement does not fit the probe", mend));
     }
     let given = [
         ("point", probe.point.is_some()),
@@ -57,7 +70,7 @@ fn place(scene: &Scene, probe: &Probe, key: &str) -> Checked {
         Where::Line => (given == ["line"], "it is read along a line: give `line` alone"),
         Where::Support => (given == ["support"], "give `support` alone, the name of a support"),
         Where::Switch => (matches!(given[..], [] | ["switch"]), "give `switch`, or nothing for all switches"),
-        Where::Model | Where::Run | Where::End => (
+        Where::Model | Where::Run | Where::End | Where::Crack => (
             given.is_empty(),
             "it is read off the whole model: remove `point`, `line`, `support` and `switch`",
         ),

@@ -3,7 +3,8 @@
 use super::check::{Checked, known};
 use super::check_peer;
 use super::check_probe::{is_history, zone};
-use super::quantity::{Accept, Quantity};
+use super::probe::Read;
+use super::quantity::{Accept, Norm, Quantity};
 use super::study::{Claim, FamilyDeclaration, Levels, Seeds};
 use super::{Scene, effects};
 use crate::error::Fault;
@@ -115,8 +116,10 @@ fn check_norm(scene: &Scene, quantity: &Quantity, key: &str) -> Checked {
     let probe = &scene.probes[&quantity.probe];
     let history = is_history(scene, probe);
     let good = match quantity.norm {
-        Some(_) => probe.line.is_some() || history,
-        None => probe.line.is_none(),
+        // Places have a distance, and no values to compare.
+        Some(Norm::Hausdorff) => probe.read == Read::CrackPath,
+        Some(_) => probe.line.is_some() || history || probe.read == Read::ForceDisplacement,
+        None => probe.line.is_none() && !probe.read.is_crack_curve(),
     };
     if !good {
         let mend = "a curve needs `norm` to become a number, a scalar has none";
@@ -150,6 +153,10 @@ fn check_quantity(scene: &Scene, name: &str, quantity: &Quantity, values: &Value
     }
     if let Some(number) = quantity.reference.as_ref().and_then(|r| r.value.as_ref()) {
         number.value(values, &format!("{key}.reference.value"))?;
+    }
+    if quantity.as_share && (quantity.reference.is_none() || curve) {
+        let mend = "give a reference, and no norm";
+        return Err(Fault::new(format!("{key}.as_share"), "there is nothing it is a share of", mend));
     }
     let refined = scene.convergence.values().any(|c| c.quantity == name);
     if quantity.extrapolated && !refined {
@@ -186,7 +193,7 @@ fn check_accept(accept: &Accept, quantity: &Quantity, values: &Values, key: &str
         let mend = "give relative, absolute or both, or else interval";
         return Err(Fault::new(key, "the accepted range is not defined", mend));
     }
-    if relative.is_some() && quantity.reference.is_none() {
+    if relative.is_some() && (quantity.reference.is_none() || quantity.as_share) {
         let mend = "add a reference, or give `absolute` or `interval`";
         return Err(Fault::new(format!("{key}.relative"), "it is relative to nothing", mend));
     }

@@ -4,6 +4,7 @@ use super::Scene;
 use super::body::Method;
 use super::check::{Checked, check_box, check_filling, known, positive};
 use super::check_dynamics::highest_load;
+use super::de::Arrangement;
 use super::dynamics::Dynamics;
 use super::switch::{Criterion, Switch};
 use crate::error::Fault;
@@ -16,23 +17,58 @@ use crate::expression::Values;
 pub fn check(scene: &Scene, values: &Values) -> Checked {
     for (name, switch) in &scene.switches {
         let key = format!("switches.{name}");
-        let Some(dynamics) = &scene.dynamics else {
-            let mend = "add a [dynamics] table, or set enabled = false";
-            return Err(Fault::new(key, "a scene that stands still never switches", mend));
-        };
-        one(scene, dynamics, switch, values, &key)?;
+        match (&scene.dynamics, &scene.cracking) {
+            (Some(dynamics), _) => when(dynamics, switch, values, &key)?,
+            (None, Some(_)) => while_cracking(scene, switch, values, &key)?,
+            (None, None) => {
+                let mend = "add a [dynamics] or [cracking] table, or set enabled = false";
+                return Err(Fault::new(key, "a scene that stands still never switches", mend));
+            }
+        }
+        one(scene, switch, values, &key)?;
     }
     Ok(())
 }
 
-fn one(scene: &Scene, dynamics: &Dynamics, switch: &Switch, values: &Values, key: &str) -> Checked {
+/// Events have no time: only a criterion can tell when, and it grows one region.
+fn while_cracking(scene: &Scene, switch: &Switch, values: &Values, key: &str) -> Checked {
+    let Some(criterion) =
+        switch.criterion.as_ref().filter(|_| switch.at_s.is_none() && switch.at_load.is_none())
+    else {
+        let mend = "give a `criterion` alone; a body that is particles from the start has method = \"de\"";
+        return Err(Fault::new(key, "events of cracking have no time at which to switch", mend));
+    };
+    if scene.switches.len() > 1 {
+        return Err(Fault::new(key, "one region grows while it cracks, not several", "keep one switch"));
+    }
+    if criterion.every_s.is_some() {
+        let key = format!("{key}.criterion.every_s");
+        return Err(Fault::new(
+            key,
+            "events of cracking have no time",
+            "remove it: it is asked before every event",
+        ));
+    }
+    if criterion.stress.is_none() || criterion.release.is_some() {
+        let mend = "give `stress` and no `release`: what has become particles stays so";
+        return Err(Fault::new(format!("{key}.criterion"), "this criterion cannot follow a crack", mend));
+    }
+    if switch.de.arrangement == Arrangement::Random {
+        let message = "a region that grows is filled anew, and a random packing would not be the same";
+        return Err(Fault::new(format!("{key}.de.arrangement"), message, "take a lattice"));
+    }
+    criterion.holds.as_ref().map_or(Ok(()), |holds| {
+        check_box(holds, scene.hypothesis.space(), values, &format!("{key}.criterion.holds"))
+    })
+}
+
+fn one(scene: &Scene, switch: &Switch, values: &Values, key: &str) -> Checked {
     let on = format!("{key}.body");
     known(&switch.body, "body", scene.bodies.keys(), &on)?;
     if scene.bodies[&switch.body].method != Method::Fe {
         let message = format!("body '{}' has no finite elements to switch", switch.body);
         return Err(Fault::new(on, message, "name a body with method = \"fe\""));
     }
-    when(dynamics, switch, values, key)?;
     let space = scene.hypothesis.space();
     match (&switch.cuboid, &switch.criterion) {
         (Some(cuboid), None) => check_box(cuboid, space, values, &format!("{key}.box"))?,
@@ -53,6 +89,16 @@ fn when(dynamics: &Dynamics, switch: &Switch, values: &Values, key: &str) -> Che
     if ways.iter().filter(|given| **given).count() != 1 {
         let mend = "give one of: at_s, at_load, criterion";
         return Err(Fault::new(key, "a switch happens in exactly one way", mend));
+    }
+    if let Some(criterion) = &switch.criterion {
+        let key = format!("{key}.criterion");
+        if criterion.every_s.is_none() {
+            return Err(Fault::new(key, "it is not said how often it is asked", "give every_s, in s"));
+        }
+        if criterion.holds.is_some() {
+            let message = "only a region that grows while it cracks holds a box from the start";
+            return Err(Fault::new(format!("{key}.holds"), message, "remove it, or widen buffer_m"));
+        }
     }
     if let Some(time) = &switch.at_s {
         let key = format!("{key}.at_s");
@@ -94,7 +140,9 @@ fn check_criterion(criterion: &Criterion, values: &Values, key: &str) -> Checked
     }
     let trigger = positive(&criterion.trigger, values, &format!("{key}.trigger"))?;
     at_least_zero(&criterion.buffer_m, values, &format!("{key}.buffer_m"))?;
-    positive(&criterion.every_s, values, &format!("{key}.every_s"))?;
+    if let Some(every) = &criterion.every_s {
+        positive(every, values, &format!("{key}.every_s"))?;
+    }
     criterion.most.count(values, 1, &format!("{key}.most"))?;
     if let Some(release) = &criterion.release {
         let key = format!("{key}.release");

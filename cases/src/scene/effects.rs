@@ -48,6 +48,8 @@ impl Scene {
             ("inertia", dynamics.is_some_and(|d| d.stepping != Stepping::QuasiStatic)),
             ("finite-rotation", dynamics.is_some_and(|d| d.rotations == Rotations::Finite)),
             ("rotation-coupling", coupled),
+            ("bond-failure", !self.failure.is_empty()),
+            ("contact", self.contact.is_some()),
             ("damping", dynamics.is_some_and(|d| d.damping.is_some())),
             ("substitution", !self.switches.is_empty()),
         ];
@@ -74,8 +76,9 @@ impl Scene {
         let on = |name: &str| self.effects.iter().any(|e| e == name);
         let [inertia, finite, coupling] = ["inertia", "finite-rotation", "rotation-coupling"].map(on);
         let [damping, substitution] = ["damping", "substitution"].map(on);
-        for name in ["bond-failure", "contact", "friction"] {
-            if on(name) {
+        let given = [!self.failure.is_empty(), self.contact.is_some(), self.contact.is_some()];
+        for (name, given) in ["bond-failure", "contact", "friction"].into_iter().zip(given) {
+            if on(name) && !given {
                 return Err(Fault::new(
                     "effects",
                     format!("nothing in the scene gives {name}"),

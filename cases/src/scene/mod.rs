@@ -7,6 +7,7 @@ pub mod body;
 pub mod check;
 mod check_connection;
 mod check_dynamics;
+mod check_failure;
 pub mod check_notched_beam;
 mod check_peer;
 mod check_probe;
@@ -14,9 +15,12 @@ mod check_size;
 mod check_study;
 mod check_switch;
 pub mod connection;
+pub mod contact;
+pub mod cracking;
 pub mod de;
 pub mod dynamics;
 pub mod effects;
+pub mod failure;
 pub mod fe;
 pub mod material;
 mod none;
@@ -105,6 +109,17 @@ pub struct Scene {
     /// How it moves; without it one equilibrium is computed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub dynamics: Option<dynamics::Dynamics>,
+    /// Loads in proportion until bonds fail one by one; instead of `dynamics`.
+    #[serde(default, deserialize_with = "none::none_or", skip_serializing_if = "Option::is_none")]
+    #[schemars(with = "none::Or<cracking::Cracking>")]
+    pub cracking: Option<cracking::Cracking>,
+    /// How particles touch that have lost a bond.
+    #[serde(default, deserialize_with = "none::none_or", skip_serializing_if = "Option::is_none")]
+    #[schemars(with = "none::Or<contact::Contact>")]
+    pub contact: Option<contact::Contact>,
+    /// When bonds break.
+    #[serde(default)]
+    pub failure: BTreeMap<String, failure::Failure>,
     /// Elements that become particles on the way.
     #[serde(default)]
     pub switches: BTreeMap<String, switch::Switch>,
@@ -269,6 +284,7 @@ impl Scene {
         self.ties.retain(|_, tie| tie.enabled);
         self.supports.retain(|_, support| support.enabled);
         self.loads.retain(|_, load| load.enabled);
+        self.failure.retain(|_, failure| failure.enabled);
         let off = self.switches.iter().filter(|(_, switch)| !switch.enabled);
         self.switches_off = off.map(|(name, _)| name.clone()).collect();
         self.switches.retain(|_, switch| switch.enabled);

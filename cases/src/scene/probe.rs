@@ -23,6 +23,9 @@ pub struct Probe {
     /// Reactions only: name of the support.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub support: Option<String>,
+    /// `envelope-work` only: displacement up to which it is counted, in m.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub up_to_m: Option<Number>,
     /// Switches only: name of the switch; all of them if not given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub switch: Option<String>,
@@ -87,6 +90,12 @@ pub enum Read {
     LargestBondStress,
     /// Run in time: number of particles.
     Particles,
+    /// Run in time: bonds that have lost stiffness so far, each time counted.
+    Losses,
+    /// Run in time: energy that failing bonds have taken, in J.
+    FractureWork,
+    /// Run in time: energy that contacts have taken and not given back, in J.
+    ContactWork,
     /// Jump of the strain energy over the energy before.
     SwitchEnergyJump,
     /// Jump of the momentum over `Σ m|v|`.
@@ -107,6 +116,37 @@ pub enum Read {
     RegionMinX,
     /// Largest x of all particles at the end, in m.
     RegionMaxX,
+    /// Cracking: largest force along the path, in N. In a run in time: the load when half of the losses have happened, which under loads
+    /// that grow slowly come at once.
+    PeakForce,
+    /// Cracking: displacement of the load at the largest force, in m.
+    PeakDisplacement,
+    /// Cracking: force over displacement before anything has failed, in N/m.
+    FirstStiffness,
+    /// Cracking: work under displacement control up to a displacement, in J.
+    EnvelopeWork,
+    /// Cracking: energy of the bonds that failed, in J.
+    FractureEnergy,
+    /// Cracking: energy that the bodies let go around them, in J; in motion it would be waves.
+    RadiatedEnergy,
+    /// Cracking: energy along the path that no entry accounts for, over the largest entry.
+    PathClosure,
+    /// Cracking: the same at the worst single failure, over the strain energy before it.
+    FailureClosure,
+    /// Cracking: number of failures.
+    Failures,
+    /// Cracking: number of points that were torn off.
+    TornOff,
+    /// Cracking: number of times the region of particles grew.
+    Growths,
+    /// Cracking: largest jump of force, stiffness and strain energy at held displacement as the region grew, as a share.
+    GrowthJump,
+    /// Cracking: counted work, one number for all kinds.
+    CountedWork,
+    /// Cracking, a curve: force (N) against displacement (m) of the load under displacement control.
+    ForceDisplacement,
+    /// Cracking, places: middles of the bonds that broke, y against x in m.
+    CrackPath,
 }
 
 /// Where something is read.
@@ -126,6 +166,8 @@ pub enum Where {
     Run,
     /// Of the whole model at the end of a run.
     End,
+    /// Of a path of cracking.
+    Crack,
 }
 
 impl Read {
@@ -136,6 +178,8 @@ impl Read {
             Self::Sxx | Self::Syy | Self::Sxy | Self::LargestBondStress => "Pa",
             Self::SecantRotation | Self::SectionRotation => "rad",
             Self::StrainEnergy | Self::KineticEnergy | Self::ExternalWork => "J",
+            Self::FractureWork | Self::ContactWork => "J",
+            Self::Losses => "1",
             Self::ReactionX | Self::ReactionY | Self::ReactionZ => "N",
             Self::SwitchTime => "s",
             Self::DisplacementError | Self::DisplacementErrorRms => "1",
@@ -143,6 +187,12 @@ impl Read {
             Self::SwitchEnergyJump | Self::SwitchMomentumJump | Self::SwitchAngularMomentumJump => "1",
             Self::SwitchReactionJump | Self::SwitchShareOfTime => "1",
             Self::SwitchUnbalancedBefore | Self::SwitchUnbalancedAfter => "1",
+            Self::PeakForce | Self::ForceDisplacement => "N",
+            Self::PeakDisplacement | Self::CrackPath => "m",
+            Self::FirstStiffness => "N/m",
+            Self::EnvelopeWork | Self::FractureEnergy | Self::RadiatedEnergy => "J",
+            Self::PathClosure | Self::FailureClosure | Self::Failures | Self::TornOff => "1",
+            Self::Growths | Self::GrowthJump | Self::CountedWork => "1",
         }
     }
 
@@ -155,21 +205,37 @@ impl Read {
             Self::DisplacementError | Self::DisplacementErrorRms | Self::StrainEnergy => Where::Model,
             Self::KineticEnergy | Self::ExternalWork | Self::EnergyClosure | Self::Gap => Where::Run,
             Self::LoadFactor | Self::LargestBondStress | Self::Particles => Where::Run,
+            Self::Losses | Self::FractureWork | Self::ContactWork => Where::Run,
             Self::SwitchEnergyJump | Self::SwitchMomentumJump | Self::SwitchAngularMomentumJump => {
                 Where::Switch
             }
             Self::SwitchReactionJump | Self::SwitchTime | Self::SwitchShareOfTime => Where::Switch,
             Self::SwitchUnbalancedBefore | Self::SwitchUnbalancedAfter => Where::Switch,
             Self::RegionMinX | Self::RegionMaxX => Where::End,
+            Self::PeakForce | Self::PeakDisplacement | Self::FirstStiffness => Where::Crack,
+            Self::EnvelopeWork | Self::FractureEnergy | Self::RadiatedEnergy => Where::Crack,
+            Self::PathClosure | Self::FailureClosure | Self::Failures | Self::TornOff => Where::Crack,
+            Self::Growths | Self::GrowthJump | Self::CountedWork => Where::Crack,
+            Self::ForceDisplacement | Self::CrackPath => Where::Crack,
         }
     }
 
     /// Whether the same thing can be read off a reference model without switches: not what tells of particles and ties.
     pub fn has_counterpart(self) -> bool {
-        !matches!(
-            self,
-            Self::EnergyClosure | Self::Gap | Self::LoadFactor | Self::LargestBondStress | Self::Particles
-        )
+        self.place() != Where::Crack
+            && !matches!(
+                self,
+                Self::EnergyClosure
+                    | Self::Gap
+                    | Self::LoadFactor
+                    | Self::LargestBondStress
+                    | Self::Particles
+            )
+    }
+
+    /// Whether it gives a curve of a path of cracking.
+    pub fn is_crack_curve(self) -> bool {
+        matches!(self, Self::ForceDisplacement | Self::CrackPath)
     }
 
     /// Whether it is the distance from an exact displacement.
@@ -181,7 +247,7 @@ impl Read {
 impl Probe {
     /// Whether it gives a history in a run: a value over time.
     pub fn is_history(&self) -> bool {
-        let once = [Where::Switch, Where::End].contains(&self.read.place());
+        let once = [Where::Switch, Where::End, Where::Crack].contains(&self.read.place());
         self.line.is_none() && !once && !self.read.is_error()
     }
 }

@@ -35,6 +35,9 @@ pub struct Quantity {
     /// Take the value extrapolated from the levels of a convergence study of this quantity.
     #[serde(default)]
     pub extrapolated: bool,
+    /// Take the value over that of the reference, a pure number: a tenth of the work.
+    #[serde(default)]
+    pub as_share: bool,
     /// What it is compared with.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub reference: Option<Reference>,
@@ -53,6 +56,8 @@ pub enum Norm {
     Largest,
     /// `Σ (s−r) sgn r / Σ |r|`: positive where s is larger, and linear in s, so that parts add up.
     Mean,
+    /// Crack paths only: Hausdorff distance of the two sets of places, `max(max min |a−b|, max min |b−a|)`, in m.
+    Hausdorff,
 }
 
 /// One value of a history.

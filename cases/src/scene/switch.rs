@@ -30,7 +30,7 @@ pub struct Switch {
     /// Where: the elements whose centre lies inside. With `at_s` and `at_load`.
     #[serde(rename = "box", default, skip_serializing_if = "Option::is_none")]
     pub cuboid: Option<Cuboid>,
-    /// What the particles take over.
+    /// What the particles take over. While cracking nothing is: the equilibrium is found anew.
     #[serde(default)]
     pub fields: Fields,
     /// How the new faces are tied.
@@ -55,8 +55,12 @@ pub struct Criterion {
     /// Elements closer than this to one that fired go too, in m; its neighbours always.
     #[serde(default = "zero")]
     pub buffer_m: Number,
-    /// How often it is asked, in s.
-    pub every_s: Number,
+    /// In time: how often it is asked, in s. While cracking it is asked before every event.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub every_s: Option<Number>,
+    /// While cracking: the region always holds this box, e.g. a notch.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub holds: Option<Cuboid>,
     /// Most switches.
     #[serde(default = "once")]
     pub most: Number,

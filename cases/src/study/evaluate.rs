@@ -5,6 +5,7 @@ use crate::checkpoint::Checkpoints;
 use crate::error::Result;
 use crate::file::SceneFile;
 use crate::model::{self, Built, time};
+use crate::observe::crack::{self, Cracked};
 use crate::observe::curve::Curve;
 use crate::observe::field::Field;
 use crate::observe::guard::Guard;
@@ -12,9 +13,11 @@ use crate::observe::history::{Histories, Recorder};
 use crate::observe::probes::{Moment, Observer, Reading};
 use crate::observe::supports::Supports;
 use crate::observe::switches::{Switches, extent, region_x};
+use crate::scene::cracking::Cracking;
 use crate::scene::dynamics::Dynamics;
 use crate::scene::probe::{Probe, Read, Where};
 use crate::scene::quantity::{Norm, Quantity, Zone};
+use seam_solver::dynamics::breaking::Loss;
 use seam_solver::model::Numbering;
 use seam_solver::simulation::{Energies, Outcome};
 use seam_solver::solve::statics::{self, Solution};
@@ -34,6 +37,8 @@ pub struct Solved {
     pub readings: Readings,
     /// How it moved; `None` in statics.
     pub course: Option<Course>,
+    /// How it cracked; `None` where the scene has no `[cracking]`.
+    pub cracked: Option<Cracked>,
     /// What was watched for effects that were left out.
     pub guard: Guard,
     /// Wall time, in s.
@@ -47,6 +52,8 @@ pub struct Course {
     pub energies: Vec<(f64, Energies)>,
     /// The switches.
     pub switches: Switches,
+    /// Bonds that lost stiffness, each time counted.
+    pub losses: usize,
 }
 
 impl Course {
@@ -161,9 +168,10 @@ fn solve_with(
     let start = Instant::now();
     let mut built = model::build(file)?;
     change(&mut built);
-    let mut solved = match &file.scene.dynamics {
-        None => stand(file, built)?,
-        Some(dynamics) => go(file, dynamics, built, (checkpoints, start))?,
+    let mut solved = match (&file.scene.dynamics, &file.scene.cracking) {
+        (Some(dynamics), _) => go(file, dynamics, built, (checkpoints, start))?,
+        (None, Some(cracking)) => crack(file, cracking, built)?,
+        (None, None) => stand(file, built)?,
     };
     tally.add(solved.solution.work);
     solved.seconds = start.elapsed().as_secs_f64();
@@ -179,7 +187,7 @@ fn stand(file: &SceneFile, built: Built) -> Result<Solved> {
     let readings = Readings { by_probe, first_switch: None };
     let mut guard = Guard::new(file)?;
     guard.watch(&built.model, &solution.u, [0.0, 1.0]).map_err(|e| file.solver(e))?;
-    Ok(Solved { built, solution, readings, course: None, guard, seconds: 0.0 })
+    Ok(Solved { built, solution, readings, course: None, cracked: None, guard, seconds: 0.0 })
 }
 
 fn go(
@@ -201,7 +209,7 @@ fn go(
         recorder.watch(snapshot)?;
         checkpoints.keep(file, (&recorder.histories, &guard), snapshot)
     })?;
-    let Outcome { model, state, energies, switches, notes, work, switch_seconds, .. } = outcome;
+    let Outcome { model, state, energies, switches, losses, notes, work, switch_seconds, .. } = outcome;
     let share_of_time = switch_seconds / start.elapsed().as_secs_f64();
     let switches = Switches { reports: switches, extent: extent(&model), share_of_time };
     built.model = model;
@@ -226,12 +234,64 @@ fn go(
         };
         by_probe.extend(value.map(|value| (name.clone(), Reading::Scalar(value))));
     }
+    let peak = load_at_breaking(file, dynamics, &losses, crack::Recorder::new(&built.model).resultant)?;
+    for (name, _) in file.scene.probes.iter().filter(|(_, probe)| probe.read == Read::PeakForce) {
+        by_probe.extend(peak.map(|peak| (name.clone(), Reading::Scalar(peak))));
+    }
     let Histories { curves, energies, .. } = recorder.histories;
     let curves = curves.into_iter().map(|(name, curve)| (name, Reading::Curve(curve)));
     by_probe.extend(curves);
-    let course = Course { energies, switches };
+    let course = Course { energies, switches, losses: losses.len() };
     let readings = Readings { by_probe, first_switch: course.first_switch() };
-    Ok(Solved { built, solution, readings, course: Some(course), guard, seconds: 0.0 })
+    Ok(Solved { built, solution, readings, course: Some(course), cracked: None, guard, seconds: 0.0 })
+}
+
+/// Load (N) when half of the losses have happened; `None` without any.
+fn load_at_breaking(
+    file: &SceneFile,
+    dynamics: &Dynamics,
+    losses: &[Loss],
+    resultant: f64,
+) -> Result<Option<f64>> {
+    let Some(middle) = losses.get(losses.len() / 2) else { return Ok(None) };
+    Ok(Some(resultant * time::factor(file, dynamics)?.at(middle.time)))
+}
+
+/// Loads until bonds fail, one by one; the state is the one just after the last failure.
+fn crack(file: &SceneFile, cracking: &Cracking, mut built: Built) -> Result<Solved> {
+    let mut recorder = crack::Recorder::new(&built.model);
+    let mut held = Supports::new(&built);
+    let (model, u, reactions, (outcome, grown)) =
+        model::cracking::run(file, cracking, &mut built, &mut |path| recorder.watch(path), |path| {
+            let factor = crack::factor(&path);
+            let reactions = path.cracking().reactions().iter().map(|r| factor * r).collect();
+            (path.cracking().model().clone(), crack::state(&path), reactions, path.outcome())
+        })?;
+    held.follow(&model, grown.len());
+    built.model = model;
+    let cracked = recorder.end(outcome, grown);
+    let solution = Solution {
+        numbering: Numbering::new(&built.model),
+        u,
+        reactions,
+        multipliers: Vec::new(),
+        energy: cracked.outcome.energies().strain,
+        // Each event has its own.
+        residual: f64::NAN,
+        work: cracked.outcome.work,
+        notes: [cracked.outcome.notes.clone(), cracked.notes()].concat(),
+    };
+    let mut by_probe = read(file, &built, &solution, &held, |_| true)?;
+    for (name, probe) in &file.scene.probes {
+        let limit = probe.up_to_m.as_ref().map(|n| n.value(&file.values, &format!("probes.{name}.up_to_m")));
+        let limit = limit.transpose().map_err(|fault| file.error(fault))?;
+        by_probe.extend(cracked.read(probe, limit).map(|reading| (name.clone(), reading)));
+    }
+    let readings = Readings { by_probe, first_switch: None };
+    let mut guard = Guard::new(file)?;
+    let factor = cracked.outcome.events.last().map_or(1.0, |e| e.factor);
+    guard.watch(&built.model, &solution.u, [0.0, factor]).map_err(|e| file.solver(e))?;
+    Ok(Solved { built, solution, readings, course: None, cracked: Some(cracked), guard, seconds: 0.0 })
 }
 
 /// Reads those probes off a state that a state alone can answer.
@@ -257,7 +317,7 @@ fn read_all(
         Moment { field: Some(&field), strain: solution.energy, reactions: &solution.reactions, supports };
     let mut readings = BTreeMap::new();
     for (name, probe) in &file.scene.probes {
-        let of_run = [Where::Run, Where::Switch, Where::End].contains(&probe.read.place());
+        let of_run = [Where::Run, Where::Switch, Where::End, Where::Crack].contains(&probe.read.place());
         if wanted(probe) && !of_run {
             let observer = Observer { file, moment: &moment, name, probe };
             readings.insert(name.clone(), observer.read()?);

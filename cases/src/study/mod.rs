@@ -68,7 +68,7 @@ pub fn run(file: &SceneFile, tier: Tier, checkpoints: &Checkpoints) -> Result<Ru
     result.costs = cost::all(&study)?;
     result.growths = growth::all(&study)?;
     result.ablations = effects::declared(&study)?;
-    result.pictures = vec![picture::deformed(file, &solved)];
+    result.pictures = picture::all(file, &solved);
     result.switches = solved.course.as_ref().map_or_else(Vec::new, |course| course.switches.records());
     result.work = tally.total();
     result.seconds = start.elapsed().as_secs_f64();

@@ -3,31 +3,48 @@
 use super::evaluate::Solved;
 use super::sketch;
 use crate::file::SceneFile;
+use crate::observe::crack::Shot;
 use crate::result::Picture;
 use seam_solver::fem::mesh::Mesh;
-use seam_solver::model::Part;
+use seam_solver::model::{Model, Numbering, Part};
 use seam_solver::space::{Space, Vec3};
 
 /// The largest displacement is drawn as this share of the largest extent.
 const SHOWN: f64 = 0.08;
 
-/// The picture of a solved scene: the plane, or the front face of a solid.
-pub fn deformed(file: &SceneFile, solved: &Solved) -> Picture {
-    let (model, solution) = (&solved.built.model, &solved.solution);
+/// The pictures of a solved scene: where it cracked at several loads, and as it is at the end.
+pub fn all(file: &SceneFile, solved: &Solved) -> Vec<Picture> {
+    let shots = solved.cracked.as_ref().map_or(&[][..], |cracked| &cracked.shots);
+    let of = |(k, shot): (usize, &Shot)| {
+        deformed(&format!("crack-{}", k + 1), &shot.title, (&shot.model, &shot.numbering(), &shot.u))
+    };
+    let mut pictures: Vec<Picture> = shots.iter().enumerate().map(of).collect();
+    let state = (&solved.built.model, &solved.solution.numbering, &solved.solution.u[..]);
+    let mut last = deformed("deformed", &file.scene.title, state);
+    last.bodies = sketch::bodies(solved);
+    last.ties = sketch::ties(file, solved);
+    pictures.push(last);
+    pictures
+}
+
+/// The plane, or the front face of a solid.
+fn deformed(id: &str, title: &str, (model, numbering, u): (&Model, &Numbering, &[f64])) -> Picture {
+    let dim = model.space.dim();
+    let displacement = |part: usize, point: usize| {
+        Vec3::from_fn(|c, _| if c < dim { u[numbering.unknown(part, point, c)] } else { 0.0 })
+    };
     let (mut low, mut high) = (Vec3::repeat(f64::INFINITY), Vec3::repeat(f64::NEG_INFINITY));
     let mut largest = 0.0f64;
     for (index, part) in model.parts.iter().enumerate() {
         for (point, x) in part.positions().iter().enumerate() {
             (low, high) = (low.inf(x), high.sup(x));
-            largest = largest.max(solution.displacement(model, index, point).norm());
+            largest = largest.max(displacement(index, point).norm());
         }
     }
     let scale = if largest > 0.0 { round_down(SHOWN * (high - low).amax() / largest) } else { 1.0 };
-    let mut picture =
-        Picture { id: "deformed".to_owned(), title: file.scene.title.clone(), scale, ..Picture::default() };
+    let mut picture = Picture { id: id.to_owned(), title: title.to_owned(), scale, ..Picture::default() };
     for (index, part) in model.parts.iter().enumerate() {
-        let moved =
-            |point: usize| part.positions()[point] + solution.displacement(model, index, point) * scale;
+        let moved = |point: usize| part.positions()[point] + displacement(index, point) * scale;
         match part {
             Part::Continuum(body) => {
                 for polygon in polygons(&body.mesh) {
@@ -43,14 +60,14 @@ pub fn deformed(file: &SceneFile, solved: &Solved) -> Picture {
                 picture.deformed_particles.extend(shown.iter().map(|&i| flat(moved(i))));
                 picture.radii.extend(shown.iter().map(|&i| network.particles.radius[i]));
                 let place = |i: usize| shown.binary_search(&i).ok().map(|k| first + k);
-                let ends = network.bonds.ends.iter();
-                picture.bonds.extend(ends.filter_map(|&[i, j]| Some([place(i)?, place(j)?])));
+                for (&[i, j], weight) in network.bonds.ends.iter().zip(&network.bonds.weight) {
+                    let bonds = if *weight > 0.0 { &mut picture.bonds } else { &mut picture.broken };
+                    bonds.extend(place(i).zip(place(j)).map(|(i, j)| [i, j]));
+                }
             }
         }
     }
-    add_conditions(solved, &mut picture);
-    picture.bodies = sketch::bodies(solved);
-    picture.ties = sketch::ties(file, solved);
+    add_conditions(model, &mut picture);
     picture
 }
 
@@ -74,8 +91,7 @@ fn polygons(mesh: &Mesh) -> Vec<Vec<usize>> {
     }
 }
 
-fn add_conditions(solved: &Solved, picture: &mut Picture) {
-    let model = &solved.built.model;
+fn add_conditions(model: &Model, picture: &mut Picture) {
     let mut held: Vec<(usize, usize)> = model.supports.iter().map(|s| (s.part, s.point)).collect();
     held.sort_unstable();
     held.dedup();

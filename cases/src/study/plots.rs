@@ -3,11 +3,13 @@
 use super::Study;
 use super::evaluate::{Course, Solved, de_intervals};
 use crate::error::Result;
+use crate::observe::crack::Cracked;
 use crate::observe::curve::{Axis, Curve};
 use crate::result::{Plot, ReferenceKind, Role, Series};
 use crate::scene::probe::Probe;
 use seam_solver::simulation::Energies;
 use seam_solver::space::Vec3;
+use std::collections::BTreeMap;
 
 /// One plot per curve, and the energies of a run.
 pub fn all(study: &Study, solved: &Solved) -> Result<Vec<Plot>> {
@@ -18,6 +20,7 @@ pub fn all(study: &Study, solved: &Solved) -> Result<Vec<Plot>> {
         }
     }
     plots.extend(solved.course.as_ref().map(energies));
+    plots.extend(solved.cracked.as_ref().map(path));
     Ok(plots)
 }
 
@@ -25,6 +28,7 @@ pub fn all(study: &Study, solved: &Solved) -> Result<Vec<Plot>> {
 fn shaded(study: &Study, solved: &Solved, curve: &Curve) -> Vec<[f64; 2]> {
     match curve.axis {
         Axis::Position => de_intervals(study.file),
+        Axis::Displacement | Axis::Places => Vec::new(),
         Axis::Time => {
             let first = solved.course.as_ref().and_then(Course::first_switch);
             first.zip(curve.x.last()).map(|(first, last)| [first, *last]).into_iter().collect()
@@ -39,9 +43,19 @@ fn plot(study: &Study, solved: &Solved, name: &str, (probe, curve): (&Probe, &Cu
         x: curve.x.clone(),
         y: curve.y.clone(),
     };
-    let own = if study.file.scene.switches.is_empty() { "coupled" } else { "switched" };
-    let mut all = vec![series(own, Role::Model, curve)];
+    let own = match curve.axis {
+        Axis::Displacement => "this scene",
+        Axis::Places => "broken bonds",
+        _ if study.file.scene.switches.is_empty() => "coupled",
+        _ => "switched",
+    };
+    let role = if curve.axis == Axis::Places { Role::Data } else { Role::Model };
+    let mut all = vec![series(own, role, curve)];
     let mut against = ReferenceKind::Exact;
+    for (source, curve) in own_runs(study, name)? {
+        all.push(series(&source, Role::Reference, &curve));
+        against = ReferenceKind::OwnRun;
+    }
     if study.file.scene.reference.is_some() && probe.read.has_counterpart() {
         let reference = study.library.of(study.file, study.tally)?;
         if let Some((curve, _)) = reference.curves.get(name) {
@@ -69,6 +83,10 @@ fn plot(study: &Study, solved: &Solved, name: &str, (probe, curve): (&Probe, &Cu
             let y = match curve.axis {
                 Axis::Position => exact.at(Vec3::new(x, 0.0, 0.0), &study.file.values, &key),
                 Axis::Time => exact.at_time(x, &study.file.values, &key),
+                // Neither a place nor a time: the expression's x is the displacement.
+                Axis::Displacement | Axis::Places => {
+                    exact.at(Vec3::new(x, 0.0, 0.0), &study.file.values, &key)
+                }
             };
             theory.y.push(y.map_err(|fault| study.file.error(fault))?);
         }
@@ -88,15 +106,52 @@ fn plot(study: &Study, solved: &Solved, name: &str, (probe, curve): (&Probe, &Cu
     })
 }
 
+/// Curves of a probe in the other runs that its quantities are compared with, by what they are.
+fn own_runs(study: &Study, probe: &str) -> Result<BTreeMap<String, Curve>> {
+    let mut curves = BTreeMap::new();
+    let scene = &study.file.scene;
+    let now = scene.quantities.values().filter(|q| q.tiers.contains(&study.tier));
+    for quantity in now.filter(|q| q.probe == probe && q.variants.is_empty() && q.norm.is_some()) {
+        let Some((names, source)) =
+            quantity.reference.as_ref().and_then(|r| Some((r.variants.as_ref()?, &r.source)))
+        else {
+            continue;
+        };
+        let file = study.file.with(&study.variants(names))?;
+        let run = study.library.own_run(&file, source, study.tally)?;
+        curves.extend(run.curves.get(probe).map(|(curve, _)| (source.clone(), curve.clone())));
+    }
+    Ok(curves)
+}
+
+/// Force against displacement along the whole path, and what displacement control sees of it.
+fn path(cracked: &Cracked) -> Plot {
+    let series =
+        |name: &str, role, curve: Curve| Series { name: name.to_owned(), role, x: curve.x, y: curve.y };
+    Plot {
+        id: "path".to_owned(),
+        title: "Path through the failures".to_owned(),
+        x_label: Axis::Displacement.label().to_owned(),
+        y_label: "force (N)".to_owned(),
+        series: vec![
+            series("failure by failure", Role::Model, cracked.path()),
+            series("under displacement control", Role::Reference, cracked.envelope()),
+        ],
+        ..Plot::default()
+    }
+}
+
 /// Entries of the energy balance: name in the plot, and where it is kept.
 type Entry = (&'static str, fn(&Energies) -> f64);
-const ENTRIES: [Entry; 6] = [
+const ENTRIES: [Entry; 8] = [
     ("kinetic", |e| e.kinetic),
     ("strain", |e| e.strain),
     ("external work", |e| e.external),
     ("damping", |e| e.damping),
     ("interface", |e| e.interface),
     ("transfer", |e| e.transfer),
+    ("contact", |e| e.contact),
+    ("fracture", |e| e.fracture),
 ];
 
 /// The entries of the energy balance over time.
@@ -115,7 +170,14 @@ fn energies(course: &Course) -> Plot {
         x_label: Axis::Time.label().to_owned(),
         y_label: "energy (J)".to_owned(),
         shaded: course.first_switch().map(|first| [first, end]).into_iter().collect(),
-        series: ENTRIES.iter().map(series).collect(),
+        // Contact and fracture are shown where there are any.
+        series: ENTRIES
+            .iter()
+            .map(series)
+            .enumerate()
+            .filter(|(k, s)| *k < 6 || s.y.iter().any(|y| *y != 0.0))
+            .map(|(_, s)| s)
+            .collect(),
         ..Plot::default()
     }
 }

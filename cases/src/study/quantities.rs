@@ -9,7 +9,7 @@ use crate::file::SceneFile;
 use crate::result::{Agreement, Observation, ReferenceKind};
 use crate::scene::number::Number;
 use crate::scene::probe::Read;
-use crate::scene::quantity::{Accept, Quantity};
+use crate::scene::quantity::{Accept, Norm, Quantity};
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
 use std::sync::Arc;
@@ -51,7 +51,10 @@ fn one(
     refined: Option<&Refined>,
 ) -> Result<Observation> {
     let probe = &study.file.scene.probes[&quantity.probe];
-    let default_unit = if quantity.norm.is_some() { "1" } else { probe.read.unit() };
+    let default_unit = match quantity.norm {
+        None | Some(Norm::Hausdorff) => probe.read.unit(),
+        Some(_) => "1",
+    };
     let mut observation = Observation {
         id: name.to_owned(),
         label: quantity.label.clone(),
@@ -83,6 +86,11 @@ fn one(
         compare(root, study, name, quantity, &mut observation)?;
     }
     observation.agreement = agreement(root, quantity);
+    if let (true, Some(whole)) = (quantity.as_share, observation.reference) {
+        // Judged by itself: one is no value it should have.
+        (observation.value, observation.unit) = (observation.value / whole, "1".to_owned());
+        (observation.reference, observation.u_ref) = (None, 0.0);
+    }
     if let Some(accept) = &quantity.accept {
         observation.accepted = Some(accepted(study, name, accept, observation.reference)?);
         observation.why = accept.why.clone();

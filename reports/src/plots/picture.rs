@@ -14,20 +14,25 @@ pub fn picture(p: &Picture) -> Option<Figure> {
     let particles = if p.deformed_particles.is_empty() { &p.particles } else { &p.deformed_particles };
     let drawn = [&p.elements, elements].into_iter().flatten().flatten().chain(&p.particles).chain(particles);
     let view = View::over(drawn, MARGIN, MARGIN)?;
-    let counts = [(p.elements.len(), "element"), (p.particles.len(), "particle"), (p.bonds.len(), "bond")];
+    let bonds_there = p.bonds.len() + p.broken.len();
+    let counts = [(p.elements.len(), "element"), (p.particles.len(), "particle"), (bonds_there, "bond")];
     let there = counts.into_iter().filter(|(n, _)| *n > 0).map(|(n, noun)| count(n, noun));
+    let broken =
+        if p.broken.is_empty() { String::new() } else { format!(", {} of them broken", p.broken.len()) };
     let description = format!(
-        "{}; displacements enlarged {} times",
+        "{}{broken}; displacements enlarged {} times",
         there.collect::<Vec<_>>().join(", "),
         significant(p.scale, 3)
     );
-    let title = "Deformed shape".to_owned();
+    // Of several, all but the last say where on the way they are.
+    let title = if p.id == "deformed" { "Deformed shape".to_owned() } else { p.title.clone() };
     let mut svg = open_svg(super::shapes::WIDTH, view.height(), &title, &description);
     svg.push_str(&path("shape-ghost", &polygons(&view, &p.elements)));
     svg.push_str(&circles(&view, "shape-ghost", &p.particles, &p.radii));
     svg.push_str(&path("shape-element", &polygons(&view, elements)));
     svg.push_str(&circles(&view, "shape-particle", particles, &p.radii));
     svg.push_str(&path("shape-bond", &bonds(&view, particles, &p.bonds)));
+    svg.push_str(&path("shape-broken", &bonds(&view, particles, &p.broken)));
     svg.push_str(&path("shape-support", &supports(&view, p)));
     let loads = thinned(&p.loads).map(|[at, direction]| arrow(&view, [displaced(p, *at), *direction]));
     svg.push_str(&path("shape-load", &loads.collect::<String>()));
@@ -70,6 +75,7 @@ pub(super) fn legend(p: &Picture) -> Vec<LegendEntry> {
         (p.elements.is_empty(), entry("shape-element", "area", "finite elements")),
         (p.particles.is_empty(), entry("shape-particle", "dot", "particles")),
         (p.bonds.is_empty(), entry("shape-bond", "line", "bonds")),
+        (p.broken.is_empty(), entry("shape-broken", "line", "broken bonds")),
         (p.supports.is_empty(), entry("shape-support", "area", "held")),
         (p.loads.is_empty(), entry("shape-load", "line", "load")),
     ];

@@ -12,22 +12,25 @@
 //!
 //! with both states at the same q: the energy of the failing bonds, and what the bodies around them let go.
 
+pub mod adaptive;
 mod base;
 mod capacitance;
-mod modes;
+mod inherit;
+pub(crate) mod modes;
 mod options;
 mod path;
 mod pieces;
 mod system;
 
 pub use options::Options;
-pub use path::{EnergyLedger, Event, Outcome, Stop, envelope};
+pub use path::{EnergyLedger, Event, Exchange, Outcome, Stop, energies, envelope};
 pub use system::Updating;
 
 use crate::error::{Error, Result};
 use crate::failure::forces::BondForce;
 use crate::failure::{Failure, Site};
-use crate::model::{Model, Part};
+use crate::model::{Model, Numbering, Part};
+use crate::space::Vec3;
 use crate::work::Work;
 use modes::{modes, product};
 use system::{Holding, System, Weakened};
@@ -48,7 +51,19 @@ pub struct Cracking {
     first_stiffness: f64,
     first_demand: Option<f64>,
     events: Vec<Event>,
+    exchanges: Vec<Exchange>,
+    next: Option<Next>,
     stop: Option<Stop>,
+}
+
+/// The site that fails next.
+struct Next {
+    law: usize,
+    site: Site,
+    /// At load factor one.
+    demand: f64,
+    /// Loads of the bonds of its part at load factor one.
+    forces: Vec<BondForce>,
 }
 
 impl Cracking {
@@ -79,6 +94,8 @@ impl Cracking {
             first_stiffness: 0.0,
             first_demand: None,
             events: Vec::new(),
+            exchanges: Vec::new(),
+            next: None,
             stop: None,
         };
         (cracking.displacement, cracking.stiffness) = cracking.response();
@@ -108,6 +125,85 @@ impl Cracking {
         self.stiffness
     }
 
+    /// The present model; weights of bonds are what is left of them.
+    pub fn model(&self) -> &Model {
+        &self.system.model
+    }
+
+    /// Where its unknowns are.
+    pub fn numbering(&self) -> &Numbering {
+        &self.system.numbering
+    }
+
+    /// The failures so far.
+    pub fn events(&self) -> &[Event] {
+        &self.events
+    }
+
+    /// Exchanges of the model so far.
+    pub fn exchanges(&self) -> &[Exchange] {
+        &self.exchanges
+    }
+
+    /// Stiffness F/q of the intact model.
+    pub fn first_stiffness(&self) -> f64 {
+        self.first_stiffness
+    }
+
+    /// Forces that supports and ties exert on all unknowns at load factor one, in N and N m.
+    pub fn reactions(&self) -> Vec<f64> {
+        self.system.internal().iter().zip(&self.system.load).map(|(k, f)| k - f).collect()
+    }
+
+    /// Displacement q at load factor one.
+    pub fn displacement(&self) -> f64 {
+        self.displacement
+    }
+
+    /// Points that were torn off, as (part, point) of the present model.
+    pub fn torn_off(&self) -> &[(usize, usize)] {
+        self.system.torn_off()
+    }
+
+    /// Why the path has ended; `None` while it goes on.
+    pub fn stop(&self) -> Option<&Stop> {
+        self.stop.as_ref()
+    }
+
+    /// Ends the path.
+    fn end(&mut self, stop: Stop) {
+        self.stop = Some(stop);
+    }
+
+    /// Goes on with another model of the same bodies, whose laws have kept what was lost, at the load factor `factor` of the
+    /// present one: q is held.
+    ///
+    /// # Errors
+    /// As [`Cracking::new`].
+    fn exchange(&mut self, model: &Model, laws: Vec<(usize, Failure)>, factor: f64) -> Result<()> {
+        options::check_fit(model, &laws)?;
+        let (q, before) = (factor * self.displacement, self.stiffness);
+        self.system = System::resumed(model, self.options.updating, &self.system)?;
+        (self.laws, self.next) = (laws, None);
+        (self.displacement, self.stiffness) = self.response();
+        self.exchanges.push(Exchange {
+            after_events: self.events.len(),
+            factor,
+            displacement: q,
+            force: [before * q, self.stiffness * q],
+            stiffness: [before, self.stiffness],
+        });
+        Ok(())
+    }
+
+    /// Load factor of the next event; `None` where nothing that may fail is loaded.
+    fn next_factor(&mut self) -> Option<f64> {
+        if self.next.is_none() {
+            self.next = self.next_failure();
+        }
+        self.next.as_ref().map(|next| 1.0 / next.demand)
+    }
+
     /// Work done so far.
     pub fn work(&self) -> Work {
         self.system.work
@@ -121,16 +217,25 @@ impl Cracking {
         if self.stop.is_some() {
             return Ok(None);
         }
-        let Some((law, site, demand, forces)) = self.next_failure() else { return Ok(None) };
-        let factor = 1.0 / demand;
+        let share = self.stiffness / self.first_stiffness;
+        let least = self.options.least_stiffness;
+        if least > 0.0 && !self.events.is_empty() && share <= least {
+            self.end(Stop::StiffnessLimit { share });
+            return Ok(None);
+        }
+        let Some(factor) = self.next_factor() else {
+            self.end(self.nothing_fails());
+            return Ok(None);
+        };
         if factor > self.options.factor_limit {
-            self.stop = Some(Stop::FactorLimit { factor });
+            self.end(Stop::FactorLimit { factor });
             return Ok(None);
         }
         if self.events.len() >= self.options.events {
-            self.stop = Some(Stop::EventLimit);
+            self.end(Stop::EventLimit);
             return Ok(None);
         }
+        let Some(Next { law, site, forces, .. }) = self.next.take() else { return Ok(None) };
         let failing = self.fail(law, site, &forces);
         let before = self.system.u.clone();
         let stiffness = self.stiffness;
@@ -152,7 +257,7 @@ impl Cracking {
             }
             Holding::Separated(what) => {
                 self.stiffness = 0.0;
-                self.stop = Some(Stop::Separated { what });
+                self.end(Stop::Separated { what });
                 energy - fracture_energy
             }
         };
@@ -160,11 +265,13 @@ impl Cracking {
         let (part, failure) = &self.laws[law];
         let bonds: Vec<usize> = failing.iter().map(|f| f.bond).collect();
         let integrity = bonds.iter().map(|&b| failure.integrity()[b]).collect();
+        let places = self.places(*part, &bonds);
         self.events.push(Event {
             part: *part,
             site,
             bonds,
             integrity,
+            places,
             factor,
             displacement: q,
             force: stiffness * q,
@@ -177,12 +284,24 @@ impl Cracking {
         Ok(self.events.last())
     }
 
-    /// The site that fails next: law, site, its demand at load factor one, and the forces in the bonds of its part.
-    fn next_failure(&mut self) -> Option<(usize, Site, f64, Vec<BondForce>)> {
-        if !self.laws.iter().any(|(_, f)| (0..f.integrity().len()).any(|b| f.may_break(b))) {
-            self.stop = Some(Stop::EveryBondBroken);
-            return None;
-        }
+    /// Mid-points of bonds, in m.
+    fn places(&self, part: usize, bonds: &[usize]) -> Vec<Vec3> {
+        let Part::Discrete { network, .. } = &self.system.model.parts[part] else { return Vec::new() };
+        let middle = |&b: &usize| {
+            let [i, j] = network.bonds.ends[b];
+            0.5 * (network.particles.position[i] + network.particles.position[j])
+        };
+        bonds.iter().map(middle).collect()
+    }
+
+    /// Why nothing fails any more.
+    fn nothing_fails(&self) -> Stop {
+        let left = self.laws.iter().any(|(_, f)| (0..f.integrity().len()).any(|b| f.may_break(b)));
+        if left { Stop::Unloaded } else { Stop::EveryBondBroken }
+    }
+
+    /// The site that fails next; `None` where none is loaded.
+    fn next_failure(&mut self) -> Option<Next> {
         let mut demands = Vec::with_capacity(self.laws.len());
         let mut largest = 0.0f64;
         for (part, failure) in &self.laws {
@@ -196,15 +315,19 @@ impl Cracking {
             largest = of_law.iter().fold(largest, |m, d| m.max(*d));
             demands.push((of_law, forces));
         }
+        // Without laws nothing has a demand yet.
+        if largest == 0.0 {
+            return None;
+        }
         let first = *self.first_demand.get_or_insert(largest);
         if largest <= UNLOADED * first {
-            self.stop = Some(Stop::Unloaded);
             return None;
         }
         let least = (1.0 - self.options.tie_tolerance) * largest;
         for (law, (of_law, forces)) in demands.into_iter().enumerate() {
             if let Some(index) = of_law.iter().position(|d| *d >= least) {
-                return Some((law, self.laws[law].1.site(index), of_law[index], forces));
+                let site = self.laws[law].1.site(index);
+                return Some(Next { law, site, demand: of_law[index], forces });
             }
         }
         None
@@ -241,6 +364,7 @@ impl Cracking {
         Outcome {
             torn_off: self.system.torn_off().to_vec(),
             events: self.events,
+            exchanges: self.exchanges,
             stop: self.stop.unwrap_or(Stop::EventLimit),
             first_stiffness: self.first_stiffness,
             updates: self.system.updates,

@@ -4,13 +4,13 @@ use crate::dem::network::Network;
 use crate::space::{Space, Vec3};
 
 /// One deformation of a bond as a functional of the unknowns of its network, times the root of its stiffness.
-pub(super) type Mode = Vec<(usize, f64)>;
+pub(crate) type Mode = Vec<(usize, f64)>;
 
 /// Modes of a bond of weight `weight`: three in the plane, six in the solid; those without stiffness are left out.
 ///
 /// With `a ∈ {n, s₁, s₂}`: `√k_a a·w = √k_a (a·(u₂ − u₁) − (L/2)(θ₁ + θ₂)·(n×a))` and `√k_a a·φ`, with the stiffnesses
 /// `k_n, k_s, k_s` and `k_t, k_b, k_b` times the weight.
-pub(super) fn modes(network: &Network, bond: usize, weight: f64) -> Vec<Mode> {
+pub(crate) fn modes(network: &Network, bond: usize, weight: f64) -> Vec<Mode> {
     let space = network.space;
     let (dim, per) = (space.dim(), space.dofs_per_particle());
     let [i, j] = network.bonds.ends[bond];
@@ -55,7 +55,7 @@ pub(super) fn modes(network: &Network, bond: usize, weight: f64) -> Vec<Mode> {
 }
 
 /// `v·u`.
-pub(super) fn product(mode: &[(usize, f64)], u: &[f64]) -> f64 {
+pub(crate) fn product(mode: &[(usize, f64)], u: &[f64]) -> f64 {
     mode.iter().map(|&(i, v)| v * u[i]).sum()
 }
 

@@ -12,6 +12,8 @@ pub struct Options {
     pub factor_limit: f64,
     /// At most so many events.
     pub events: usize,
+    /// No further event once this share of the first stiffness, or less, is left.
+    pub least_stiffness: f64,
     /// Sites whose demands agree within this relative tolerance fail in the order of their numbers: symmetric pairs break in a defined
     /// order. Far above the rounding of a solve, far below what scatter or geometry make of it.
     pub tie_tolerance: f64,
@@ -24,14 +26,38 @@ impl Default for Options {
         Options {
             factor_limit: f64::INFINITY,
             events: usize::MAX,
+            least_stiffness: 0.0,
             tie_tolerance: 1e-8,
             updating: Updating::default(),
         }
     }
 }
 
-/// Refuses laws that do not fit the model, and options out of range.
+/// Refuses laws that do not fit the model or have bonds that are no longer whole, and options out of range.
 pub(super) fn check(model: &Model, laws: &[(usize, Failure)], options: &Options) -> Result<()> {
+    check_fit(model, laws)?;
+    let refuse = |message: String| Err(Error::Load { what: "cracking".to_owned(), message });
+    if let Some((part, _)) = laws.iter().find(|(_, law)| law.integrity().iter().any(|g| *g != 1.0)) {
+        let body = model.parts[*part].name();
+        return refuse(format!("the failure law of body '{body}' has broken bonds; start with a new one"));
+    }
+    if !(0.0..0.1).contains(&options.tie_tolerance) {
+        return refuse(format!("tie_tolerance = {}; give a small share like 1e-8", options.tie_tolerance));
+    }
+    if options.factor_limit.is_nan() || options.factor_limit <= 0.0 {
+        return refuse(format!("factor_limit = {}; give a positive load factor", options.factor_limit));
+    }
+    if !(0.0..1.0).contains(&options.least_stiffness) {
+        return refuse(format!(
+            "least_stiffness = {}; give a share from zero to below one",
+            options.least_stiffness
+        ));
+    }
+    Ok(())
+}
+
+/// Refuses laws that do not fit the model.
+pub(super) fn check_fit(model: &Model, laws: &[(usize, Failure)]) -> Result<()> {
     let refuse = |message: String| Err(Error::Load { what: "cracking".to_owned(), message });
     for (k, (part, failure)) in laws.iter().enumerate() {
         match model.parts.get(*part) {
@@ -52,18 +78,6 @@ pub(super) fn check(model: &Model, laws: &[(usize, Failure)], options: &Options)
         if laws[..k].iter().any(|(other, _)| other == part) {
             return refuse(format!("body '{}' has two failure laws; give one", model.parts[*part].name()));
         }
-        if failure.integrity().iter().any(|g| *g != 1.0) {
-            return refuse(format!(
-                "the failure law of body '{}' has broken bonds; start with a new one",
-                model.parts[*part].name()
-            ));
-        }
-    }
-    if !(0.0..0.1).contains(&options.tie_tolerance) {
-        return refuse(format!("tie_tolerance = {}; give a small share like 1e-8", options.tie_tolerance));
-    }
-    if options.factor_limit.is_nan() || options.factor_limit <= 0.0 {
-        return refuse(format!("factor_limit = {}; give a positive load factor", options.factor_limit));
     }
     Ok(())
 }

@@ -1,6 +1,7 @@
 //! The path through the events, its envelope and its energy.
 
 use crate::failure::Site;
+use crate::space::Vec3;
 use crate::work::Work;
 
 /// One failure.
@@ -14,6 +15,8 @@ pub struct Event {
     pub bonds: Vec<usize>,
     /// What is left of the stiffness of each: zero broken.
     pub integrity: Vec<f64>,
+    /// Mid-points of these bonds in the undeformed body, in m.
+    pub places: Vec<Vec3>,
     /// Load factor λ.
     pub factor: f64,
     /// Conjugate displacement q: work is `∫F dq`, in J.
@@ -33,6 +36,34 @@ pub struct Event {
     pub torn_off: usize,
 }
 
+/// Another model that took the place of the one before, at held displacement.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Exchange {
+    /// Events before it.
+    pub after_events: usize,
+    /// Load factor λ.
+    pub factor: f64,
+    /// Conjugate displacement q.
+    pub displacement: f64,
+    /// Force F of the old model and of the new one.
+    pub force: [f64; 2],
+    /// Stiffness F/q of both.
+    pub stiffness: [f64; 2],
+}
+
+impl Exchange {
+    /// Strain energy that the exchange added, in J: `½ q² (S_after − S_before)`.
+    pub fn energy(&self) -> f64 {
+        0.5 * self.displacement * (self.force[1] - self.force[0])
+    }
+
+    /// Jump over the value before: one number for energy, reaction and stiffness, which at held q are in proportion.
+    pub fn jump(&self) -> f64 {
+        let [before, after] = self.stiffness;
+        if before != 0.0 { after / before - 1.0 } else { 0.0 }
+    }
+}
+
 /// Why it ended.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Stop {
@@ -50,6 +81,11 @@ pub enum Stop {
         /// Its load factor.
         factor: f64,
     },
+    /// Less than the asked share of the first stiffness is left.
+    StiffnessLimit {
+        /// The share that is left.
+        share: f64,
+    },
     /// As many events as were asked for.
     EventLimit,
 }
@@ -59,6 +95,8 @@ pub enum Stop {
 pub struct Outcome {
     /// The failures in order.
     pub events: Vec<Event>,
+    /// Models that took the place of others on the way.
+    pub exchanges: Vec<Exchange>,
     /// Points no longer held by anything that bears load, as (part, point), in the order they came off.
     pub torn_off: Vec<(usize, usize)>,
     /// Why it ended.
@@ -84,14 +122,17 @@ pub struct EnergyLedger {
     pub fracture: f64,
     /// Energy let go around them.
     pub radiated: f64,
+    /// What exchanges of the model added.
+    pub transfer: f64,
 }
 
 impl EnergyLedger {
     /// What no entry accounts for, over the largest entry; zero if all are zero.
     pub fn closure(&self) -> f64 {
-        let EnergyLedger { external, strain, fracture, radiated } = *self;
-        let largest = [external, strain, fracture, radiated].iter().fold(0.0f64, |m, e| m.max(e.abs()));
-        let gap = external - strain - fracture - radiated;
+        let EnergyLedger { external, strain, fracture, radiated, transfer } = *self;
+        let entries = [external, strain, fracture, radiated, transfer];
+        let largest = entries.iter().fold(0.0f64, |m, e| m.max(e.abs()));
+        let gap = external + transfer - strain - fracture - radiated;
         if largest > 0.0 { gap.abs() / largest } else { 0.0 }
     }
 }
@@ -108,20 +149,37 @@ impl Outcome {
         envelope(&self.events)
     }
 
-    /// Energies along the path from the origin to just after the last event: rays are elastic, and at an
-    /// event the displacement is held.
+    /// Energies along the path from the origin to just after the last event.
     pub fn energies(&self) -> EnergyLedger {
-        let mut ledger = EnergyLedger::default();
-        let (mut q, mut force) = (0.0, 0.0);
-        for event in &self.events {
-            ledger.external += 0.5 * (force + event.force) * (event.displacement - q);
-            ledger.fracture += event.fracture_energy;
-            ledger.radiated += event.radiated_energy;
-            (q, force) = (event.displacement, event.force_after);
-        }
-        ledger.strain = 0.5 * force * q;
-        ledger
+        energies(&self.events, &self.exchanges)
     }
+}
+
+/// Energies along a path from the origin: rays are elastic, and at an event or exchange the displacement is held.
+pub fn energies(events: &[Event], exchanges: &[Exchange]) -> EnergyLedger {
+    let mut ledger = EnergyLedger::default();
+    let (mut q, mut force) = (0.0, 0.0);
+    let mut go = |to: [f64; 2], after: f64| {
+        let work = 0.5 * (force + to[1]) * (to[0] - q);
+        (q, force) = (to[0], after);
+        (work, 0.5 * force * q)
+    };
+    let mut exchanges = exchanges.iter().peekable();
+    for k in 0..=events.len() {
+        while let Some(exchange) = exchanges.next_if(|e| e.after_events == k) {
+            let (work, strain) = go([exchange.displacement, exchange.force[0]], exchange.force[1]);
+            ledger.external += work;
+            ledger.strain = strain;
+            ledger.transfer += exchange.energy();
+        }
+        let Some(event) = events.get(k) else { break };
+        let (work, strain) = go([event.displacement, event.force], event.force_after);
+        ledger.external += work;
+        ledger.strain = strain;
+        ledger.fracture += event.fracture_energy;
+        ledger.radiated += event.radiated_energy;
+    }
+    ledger
 }
 
 /// Force against displacement under displacement control, as corners `[q, F]` from the origin on: events that the path reaches at a

@@ -67,6 +67,17 @@ impl Pieces {
         pieces
     }
 
+    /// The pieces of a model some of whose bonds were broken before: what hung on them is still to be taken off.
+    pub fn resumed(model: &Model, numbering: &Numbering, rows: &[Row]) -> Self {
+        let mut pieces = Pieces::new(model, numbering, rows);
+        for (p, part) in model.parts.iter().enumerate() {
+            if let Part::Discrete { network, .. } = part {
+                network.bonds.ends.iter().flatten().for_each(|&i| pieces.bonded[pieces.first[p] + i] = true);
+            }
+        }
+        pieces
+    }
+
     pub fn torn_off(&self) -> &[(usize, usize)] {
         &self.order
     }

@@ -10,7 +10,8 @@
 use super::base::{Base, elements};
 use super::modes::Mode;
 use super::pieces::Pieces;
-use crate::error::Result;
+use crate::coupling::assemble;
+use crate::error::{Error, Result};
 use crate::model::{Model, Numbering, Part};
 use crate::solve::mechanism;
 use crate::solve::sparse::Triplets;
@@ -84,12 +85,7 @@ impl System {
         let numbering = Numbering::new(model);
         let n = numbering.len();
         let mut work = Work::default();
-        let mut prescribed = vec![None; n];
-        model.supports.iter().for_each(|s| {
-            prescribed[numbering.unknown(s.part, s.point, s.component)] = Some(s.value);
-        });
-        let mut load = vec![0.0; n];
-        model.loads.iter().for_each(|l| load[numbering.unknown(l.part, l.point, l.component)] += l.value);
+        let (prescribed, load) = conditions(model, &numbering);
         let elements = elements(model, &numbering, &mut work)?;
         let (base, softest) = Base::new(model, &numbering, &elements, &load, &prescribed, &mut work)?;
         mechanism::refuse(model, &numbering, &base.free, softest)?;
@@ -111,6 +107,45 @@ impl System {
         };
         system.u = system.base.solution[..n].to_vec();
         Ok(system)
+    }
+
+    /// The system of a model that takes the place of the one of `old`: with bonds that are broken already, whose pieces are taken off, and
+    /// with the work and notes of both.
+    ///
+    /// # Errors
+    /// As [`System::new`]; what carries load is not held.
+    pub fn resumed(model: &Model, updating: Updating, old: &System) -> Result<Self> {
+        crate::check::model(model)?;
+        let numbering = Numbering::new(model);
+        let mut work = old.work;
+        let (mut prescribed, load) = conditions(model, &numbering);
+        let elements = elements(model, &numbering, &mut work)?;
+        let mut pieces = Pieces::resumed(model, &numbering, &assemble::rows(model, &numbering)?);
+        let held = match release(model, &numbering, &load, &mut prescribed, &mut pieces) {
+            Holding::Held => {
+                settle(model, &numbering, &elements, &load, &mut prescribed, &mut pieces, &mut work)?
+            }
+            Holding::Separated(what) => Err(what),
+        };
+        let base = held.map_err(|message| Error::Load { what: "cracking".to_owned(), message })?;
+        let mut notes = old.notes.clone();
+        notes.extend(base.tied.notes.iter().filter(|note| !old.notes.contains(note)).cloned());
+        let u = base.solution[..numbering.len()].to_vec();
+        let (model, updates) = (model.clone(), old.updates);
+        Ok(System {
+            model,
+            numbering,
+            u,
+            load,
+            prescribed,
+            work,
+            notes,
+            updates,
+            pieces,
+            elements,
+            updating,
+            base,
+        })
     }
 
     /// `K u` on all unknowns, with what is left of the bonds.
@@ -135,18 +170,14 @@ impl System {
                 broken |= after == 0.0;
             }
         }
-        let mut released = false;
+        let held = self.prescribed.iter().flatten().count();
         if broken {
-            let loaded = |i: usize| self.load[i] != 0.0 || self.prescribed[i].is_some_and(|v| v != 0.0);
-            let found = self.pieces.release(&self.model, &self.numbering, &self.prescribed, loaded);
-            match found {
-                Err(what) => return Ok(Holding::Separated(what)),
-                Ok(fixed) => {
-                    released = !fixed.is_empty();
-                    fixed.into_iter().for_each(|i| self.prescribed[i] = Some(0.0));
-                }
+            let System { model, numbering, load, prescribed, pieces, .. } = self;
+            if let Holding::Separated(what) = release(model, numbering, load, prescribed, pieces) {
+                return Ok(Holding::Separated(what));
             }
         }
+        let released = self.prescribed.iter().flatten().count() > held;
         if !released && self.try_update(bonds)? {
             self.updates += 1;
             return Ok(Holding::Held);
@@ -179,29 +210,74 @@ impl System {
         Ok(found)
     }
 
-    /// Factorises what is left; pieces that turn out to move freely go too.
+    /// Factorises what is left.
     fn refactorise(&mut self) -> Result<Holding> {
-        loop {
-            let (base, softest) = Base::new(
-                &self.model,
-                &self.numbering,
-                &self.elements,
-                &self.load,
-                &self.prescribed,
-                &mut self.work,
-            )?;
-            self.base = base;
-            if softest.1 > mechanism::FREE {
+        let System { model, numbering, elements, load, prescribed, pieces, work, .. } = self;
+        match settle(model, numbering, elements, load, prescribed, pieces, work)? {
+            Err(what) => Ok(Holding::Separated(what)),
+            Ok(base) => {
+                self.base = base;
                 self.u = self.base.solution[..self.numbering.len()].to_vec();
-                return Ok(Holding::Held);
-            }
-            let mut motion = vec![0.0; self.numbering.len()];
-            self.base.free.iter().zip(&softest.0).for_each(|(&i, &v)| motion[i] = v);
-            let loaded = |i: usize| self.load[i] != 0.0 || self.prescribed[i].is_some_and(|v| v != 0.0);
-            match self.pieces.release_moving(&self.model, &self.numbering, &motion, loaded) {
-                Err(what) => return Ok(Holding::Separated(what)),
-                Ok(fixed) => fixed.into_iter().for_each(|i| self.prescribed[i] = Some(0.0)),
+                Ok(Holding::Held)
             }
         }
     }
+}
+
+/// Whether an unknown is loaded, by a force or a prescribed motion.
+fn is_loaded(load: &[f64], prescribed: &[Option<f64>], i: usize) -> bool {
+    load[i] != 0.0 || prescribed[i].is_some_and(|v| v != 0.0)
+}
+
+/// Takes off what hangs on nothing: its unknowns rest from now on.
+fn release(
+    model: &Model,
+    numbering: &Numbering,
+    load: &[f64],
+    prescribed: &mut [Option<f64>],
+    pieces: &mut Pieces,
+) -> Holding {
+    match pieces.release(model, numbering, prescribed, |i| is_loaded(load, prescribed, i)) {
+        Err(what) => Holding::Separated(what),
+        Ok(fixed) => {
+            fixed.into_iter().for_each(|i| prescribed[i] = Some(0.0));
+            Holding::Held
+        }
+    }
+}
+
+/// Factorises; pieces that turn out to move freely go. The base, or in words what of them was loaded.
+fn settle(
+    model: &Model,
+    numbering: &Numbering,
+    elements: &Triplets,
+    load: &[f64],
+    prescribed: &mut [Option<f64>],
+    pieces: &mut Pieces,
+    work: &mut Work,
+) -> Result<std::result::Result<Base, String>> {
+    loop {
+        let (base, softest) = Base::new(model, numbering, elements, load, prescribed, work)?;
+        if softest.1 > mechanism::FREE {
+            return Ok(Ok(base));
+        }
+        let mut motion = vec![0.0; numbering.len()];
+        base.free.iter().zip(&softest.0).for_each(|(&i, &v)| motion[i] = v);
+        let found = pieces.release_moving(model, numbering, &motion, |i| is_loaded(load, prescribed, i));
+        match found {
+            Err(what) => return Ok(Err(what)),
+            Ok(fixed) => fixed.into_iter().for_each(|i| prescribed[i] = Some(0.0)),
+        }
+    }
+}
+
+/// Prescribed values and loads on all unknowns.
+fn conditions(model: &Model, numbering: &Numbering) -> (Vec<Option<f64>>, Vec<f64>) {
+    let mut prescribed = vec![None; numbering.len()];
+    for s in &model.supports {
+        prescribed[numbering.unknown(s.part, s.point, s.component)] = Some(s.value);
+    }
+    let mut load = vec![0.0; numbering.len()];
+    model.loads.iter().for_each(|l| load[numbering.unknown(l.part, l.point, l.component)] += l.value);
+    (prescribed, load)
 }

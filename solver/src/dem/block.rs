@@ -74,6 +74,11 @@ impl Block {
         self.sides().iter().take(space.dim()).product()
     }
 
+    /// The smallest box around both.
+    pub fn around(&self, other: &Block) -> Block {
+        Block { min: self.min.inf(&other.min), max: self.max.sup(&other.max) }
+    }
+
     /// Names of the faces a space has.
     pub fn faces(space: Space) -> &'static [(&'static str, usize, bool)] {
         &FACES[..2 * space.dim()]

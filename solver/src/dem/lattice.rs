@@ -46,6 +46,8 @@ pub struct Lattice {
     pub pairs: Vec<Pair>,
     /// Cell length over its regular length, less one, along each side.
     pub stretch: [f64; 3],
+    /// Sides of a cell as it fills the box, in m.
+    pub cell: Vec3,
 }
 
 /// Lattice sites are counted on a grid of half (or whole) cells; neighbours differ by these steps.
@@ -117,6 +119,7 @@ pub fn lattice(kind: LatticeKind, block: Block, rows: usize, matter: Matter) -> 
     let height = sides.y / rows as f64;
     let mut cells = [0usize; 3];
     let mut stretch = [0.0; 3];
+    let mut cell = Vec3::zeros();
     let mut volume_ratio = 1.0;
     for axis in 0..dim {
         let regular = pattern.proportion[axis] * height;
@@ -131,6 +134,7 @@ pub fn lattice(kind: LatticeKind, block: Block, rows: usize, matter: Matter) -> 
             return Err(refusal(kind, &message));
         }
         cells[axis] = count as usize;
+        cell[axis] = sides[axis] / count;
         stretch[axis] = sides[axis] / (count * regular) - 1.0;
         volume_ratio *= 1.0 + stretch[axis];
     }
@@ -141,7 +145,7 @@ pub fn lattice(kind: LatticeKind, block: Block, rows: usize, matter: Matter) -> 
     let pairs = pairs(&index, pattern.steps);
     let radius = vec![0.5 * spacing; position.len()];
     let arrangement = Arrangement::new(pattern.space, block, Boundary::Closed, matter, position, radius)?;
-    Ok(Lattice { arrangement, pairs, stretch })
+    Ok(Lattice { arrangement, pairs, stretch, cell })
 }
 
 fn refusal(kind: LatticeKind, message: &str) -> Error {

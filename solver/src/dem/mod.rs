@@ -15,6 +15,7 @@ pub mod kernel;
 pub mod lattice;
 pub mod network;
 pub mod network_csv;
+pub mod notch;
 pub mod packing;
 pub mod section;
 pub mod skin;

@@ -2,6 +2,7 @@
 
 use super::arrangement::Arrangement;
 use super::bonding::Pair;
+use super::skin::bond_shares;
 use crate::space::Space;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
@@ -56,6 +57,47 @@ impl Section {
                 let area = facets[at].measure * depth / share;
                 (area > 0.0).then(|| ratio * (area / PI).sqrt())
             }
+        }
+    }
+}
+
+/// Area (m²) of the Voronoi facet of each pair, completed beyond the faces of the body (plane: length × thickness): what stresses
+/// in its bond refer to. `None` if one of the pairs has no facet.
+pub fn facets(arrangement: &Arrangement, pairs: &[Pair]) -> Option<Vec<f64>> {
+    let whole = Section::Voronoi { ratio: 1.0 };
+    let shares = bond_shares(&arrangement.faces, arrangement.particles.len(), pairs);
+    pairs
+        .iter()
+        .zip(shares)
+        .map(|(&pair, share)| Some(PI * whole.radius(arrangement, pair, share)?.powi(2)))
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::dem::arrangement::Matter;
+    use crate::dem::block::Block;
+    use crate::dem::lattice::{LatticeKind, lattice};
+    use crate::space::Vec3;
+
+    /// `Σ A L / d` over the bonds inside is the volume of the body, d = 2 or 3: pyramids from each particle to its facets.
+    #[test]
+    fn facets_fill_the_body() {
+        let matter = Matter { density: 1.0, thickness_m: 0.3 };
+        for (kind, depth, thickness) in
+            [(LatticeKind::Triangular, 0.0, 0.3), (LatticeKind::SimpleCubic, 1.0, 1.0)]
+        {
+            let block = Block::at_origin(kind.space(), Vec3::new(3.0, 1.0, depth)).unwrap();
+            let l = lattice(kind, block, 6, matter).unwrap();
+            let areas = facets(&l.arrangement, &l.pairs).unwrap();
+            let shares = bond_shares(&l.arrangement.faces, l.arrangement.particles.len(), &l.pairs);
+            let x = &l.arrangement.particles.position;
+            let length = |p: &Pair| (x[p.ends[1]] - x[p.ends[0]]).norm();
+            let bonds = l.pairs.iter().zip(&areas).zip(shares);
+            let volume: f64 = bonds.map(|((p, a), s)| s * a * length(p) / kind.space().dim() as f64).sum();
+            // What lies between the outer particles and the faces belongs to no bond; particles sit on the faces.
+            assert!((volume / (3.0 * thickness) - 1.0).abs() < 1e-9, "{kind:?}: {volume}");
         }
     }
 }

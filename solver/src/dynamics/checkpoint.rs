@@ -12,8 +12,12 @@ use std::path::Path;
 /// Writes the state of a run of `model`.
 ///
 /// # Errors
-/// A file that cannot be written.
+/// A file that cannot be written; a run that breaks bonds, whose laws are not kept in it.
 pub fn write(path: &Path, model: &Model, run: &Explicit) -> Result<()> {
+    if run.breaking().is_some() {
+        let message = "a run that breaks bonds has no checkpoints; run it through".to_owned();
+        return Err(Error::File { file: path.display().to_string(), line: None, message });
+    }
     write_atomically(path, &seal(&(Fingerprint::of(&(model, run.options())), run.freeze())))
 }
 

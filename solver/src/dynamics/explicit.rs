@@ -4,6 +4,7 @@
 //! Velocities live at the half steps; the state at `t_n` has `v_n = ½(v₋ + v₊)`, `a_n = (v₊ − v₋)/Δt`.
 
 use super::State;
+use super::breaking::Breaking;
 use super::critical::{self, CriticalStep};
 use super::damping::Damping;
 use super::forces::{InternalForces, Rotations};
@@ -59,6 +60,7 @@ pub struct Explicit {
     /// Unknowns with a share in a tie, ascending.
     tied: Vec<usize>,
     kick: Kick,
+    breaking: Option<Breaking>,
     pub(super) work: Work,
 }
 
@@ -99,6 +101,25 @@ struct Kick {
 }
 
 impl Explicit {
+    /// As [`Explicit::new`], with bonds that break at the ends of steps.
+    ///
+    /// # Errors
+    /// As [`Explicit::new`]; finite rotations.
+    pub fn with_breaking(
+        model: &Model,
+        options: Options,
+        initial: &State,
+        breaking: Breaking,
+    ) -> Result<Self> {
+        if options.rotations == Rotations::Finite {
+            let message = "bonds break under small rotations only; take these".to_owned();
+            return Err(Error::Solve { message });
+        }
+        let mut run = Explicit::new(model, options, initial)?;
+        run.breaking = Some(breaking);
+        Ok(run)
+    }
+
     /// Prepares a run from `initial`: displacements and velocities at its time; its accelerations follow from the forces.
     ///
     /// # Errors
@@ -149,7 +170,20 @@ impl Explicit {
         tied.dedup();
         let [v, internal, ties] = [(); 3].map(|()| vec![0.0; n]);
         let kick = Kick { v, internal, ties, ..Kick::default() };
-        Ok(Explicit { options, motion, system, forces, interface, critical, loaded, held, tied, kick, work })
+        Ok(Explicit {
+            options,
+            motion,
+            system,
+            forces,
+            interface,
+            critical,
+            loaded,
+            held,
+            tied,
+            kick,
+            breaking: None,
+            work,
+        })
     }
 
     fn refuse_turned_start(&self, model: &Model) -> Result<()> {
@@ -215,6 +249,11 @@ impl Explicit {
         self.work
     }
 
+    /// Bonds that have broken, and contacts; `None` where nothing breaks.
+    pub fn breaking(&self) -> Option<&Breaking> {
+        self.breaking.as_ref()
+    }
+
     /// Takes `steps` steps.
     ///
     /// # Errors
@@ -245,6 +284,11 @@ impl Explicit {
         self.forces.turn(v, dt);
         self.motion.step += 1;
         self.work.steps += 1;
+        if let Some(breaking) = &mut self.breaking {
+            let time = self.motion.start + self.motion.step as f64 * dt;
+            let Motion { u, v, done, .. } = &mut self.motion;
+            done.fracture -= breaking.after_step(time, (u, v, dt), &mut self.forces, &mut self.work);
+        }
         Ok(())
     }
 
@@ -289,6 +333,12 @@ impl Explicit {
         let old = before.iter().zip(inverse_mass.iter().zip(&*internal));
         v.iter_mut().zip(old).for_each(|(v, (before, (w, f)))| *v = keep * before - push * w * f);
         self.loaded.iter().for_each(|&(i, f)| v[i] += push * inverse_mass[i] * factor * f);
+        let contact = self.breaking.as_mut().and_then(|breaking| {
+            breaking.contact(self.motion.step, u, before, self.options.step_s, &mut self.work)
+        });
+        if let Some(contact) = contact {
+            v.iter_mut().zip(inverse_mass.iter().zip(contact)).for_each(|(v, (w, f))| *v += push * w * f);
+        }
         let goal = self.options.supports.at(now + self.options.step_s);
         self.held.iter().for_each(|&(i, value)| v[i] = (goal * value - u[i]) / self.options.step_s);
 
@@ -307,17 +357,21 @@ impl Explicit {
 
         supports.clear();
         supports.extend(self.held.iter().map(|&(i, _)| {
-            let force = factor * system.load[i] - internal[i];
+            let force = factor * system.load[i] - internal[i] + contact.map_or(0.0, |f| f[i]);
             system.mass[i] * (v[i] - before[i]) / dt - force - ties[i]
         }));
         *power = [before, &*v].map(|w| {
             let loads: f64 = self.loaded.iter().map(|&(i, f)| factor * f * w[i]).sum();
             let moving: f64 = self.held.iter().zip(&*supports).map(|(&(i, _), s)| s * w[i]).sum();
             let rows = system.rows.iter().zip(&*lambda);
+            let touch = contact.map_or(0.0, |f| f.iter().zip(w).map(|(f, w)| f * w).sum());
             WorkDone {
                 external: loads + moving,
                 damping: self.options.damping.power(drag, before, v, w, system),
                 interface: -per_impulse * rows.map(|(row, l)| l * row_product(&row.terms, w)).sum::<f64>(),
+                contact: touch,
+                // Taken at the ends of steps.
+                fracture: 0.0,
             }
         });
         Ok(())

@@ -3,6 +3,7 @@
 use crate::dem::corotational::Corotational;
 use crate::dem::kernel::Kernel;
 use crate::dem::kernel::locality::{Detour, better_order, renumber};
+use crate::dem::network::Network;
 use crate::error::{Error, Result};
 use crate::fem;
 use crate::fem::continuum::Continuum;
@@ -109,6 +110,15 @@ impl InternalForces {
         }
     }
 
+    /// Gives a bond of a part under small rotations the weight that it has in `network`.
+    pub fn set_weight(&mut self, part: usize, network: &Network, bond: usize) {
+        let ElasticPart { elastic: Elastic::Bonds(kernel), detour, .. } = &mut self.parts[part] else {
+            return;
+        };
+        let place = |p: usize| detour.as_ref().map_or(p, |detour| detour.place(p));
+        kernel.set_weight(network, bond, network.bonds.ends[bond].map(place));
+    }
+
     /// Strain energy (J) at `u`, where the internal forces are `f`.
     pub fn energy(&self, u: &[f64], f: &[f64]) -> f64 {
         let of_part = |ElasticPart { unknowns, elastic, detour }: &ElasticPart| {
@@ -170,7 +180,6 @@ mod tests {
     use crate::dem::bonding::{BondRecipe, bond_network};
     use crate::dem::kernel::locality::order;
     use crate::dem::lattice::{LatticeKind, lattice};
-    use crate::dem::network::Network;
     use crate::dem::section::Section;
     use crate::dem::skin::Skin;
     use crate::space::Vec3;

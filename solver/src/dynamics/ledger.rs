@@ -16,12 +16,16 @@ pub struct WorkDone {
     pub damping: f64,
     /// By the ties; zero up to rounding where both sides take the same steps.
     pub interface: f64,
+    /// By contacts: negative while they close.
+    pub contact: f64,
+    /// Taken by bonds that failed: negative.
+    pub fracture: f64,
 }
 
 impl WorkDone {
     /// All work together, in J.
     pub fn total(&self) -> f64 {
-        self.external + self.damping + self.interface
+        self.external + self.damping + self.interface + self.contact + self.fracture
     }
 }
 
@@ -32,6 +36,8 @@ impl Add for WorkDone {
             external: self.external + other.external,
             damping: self.damping + other.damping,
             interface: self.interface + other.interface,
+            contact: self.contact + other.contact,
+            fracture: self.fracture + other.fracture,
         }
     }
 }
@@ -45,7 +51,13 @@ impl AddAssign for WorkDone {
 impl Mul<WorkDone> for f64 {
     type Output = WorkDone;
     fn mul(self, w: WorkDone) -> WorkDone {
-        WorkDone { external: self * w.external, damping: self * w.damping, interface: self * w.interface }
+        WorkDone {
+            external: self * w.external,
+            damping: self * w.damping,
+            interface: self * w.interface,
+            contact: self * w.contact,
+            fracture: self * w.fracture,
+        }
     }
 }
 
@@ -75,9 +87,10 @@ impl Ledger {
 
     /// [`Ledger::imbalance`] over the largest entry of the ledger; zero if all are zero.
     pub fn closure(&self) -> f64 {
-        let WorkDone { external, damping, interface } = self.work;
-        let entries = [self.kinetic, self.strain, external, damping, interface, self.initial];
-        let largest = entries.iter().fold(0.0f64, |m, e| m.max(e.abs()));
+        let WorkDone { external, damping, interface, contact, fracture } = self.work;
+        let work = [external, damping, interface, contact, fracture];
+        let entries = [self.kinetic, self.strain, self.initial].into_iter().chain(work);
+        let largest = entries.fold(0.0f64, |m, e| m.max(e.abs()));
         if largest > 0.0 { self.imbalance().abs() / largest } else { 0.0 }
     }
 }

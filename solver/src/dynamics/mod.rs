@@ -6,6 +6,7 @@
 //! Implicit: [`semidiscrete`] has the matrices on the free unknowns for [`newmark`] steps, two rates ([`multirate`]),
 //! equilibria ([`quasi_static`]) and natural [`modes`].
 
+pub mod breaking;
 pub mod checkpoint;
 pub mod critical;
 pub mod damping;

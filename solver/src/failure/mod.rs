@@ -135,6 +135,15 @@ impl Failure {
         self.breakable[bond] && self.integrity[bond] > 0.0
     }
 
+    /// Takes over what bonds have lost already: `from[b]` is the bond of `old` that bond `b` of this network is; the others are new.
+    pub fn inherit(&mut self, old: &Failure, from: &[Option<usize>]) {
+        for (b, source) in from.iter().enumerate() {
+            if let Some(o) = *source {
+                (self.integrity[b], self.stage[b]) = (old.integrity[o], old.stage[o]);
+            }
+        }
+    }
+
     /// Demand of every site, from the forces in all bonds (those of broken bonds are zero and do not count): one per bond, or one per
     /// particle. Sites that cannot fail have demand zero.
     pub fn demands(&self, network: &Network, forces: &[BondForce]) -> Vec<f64> {
@@ -188,6 +197,32 @@ impl Failure {
             Made::BondStress(_) | Made::Virial(_) => 0.0,
         };
         self.integrity[bond]
+    }
+
+    /// The bonds that fail at the displacements `u` of a network whose weights are what is left of its bonds, ascending, in place of what
+    /// `failing` held. Returns how many bonds were looked at. Laws of single bonds look at those that may break and need no room.
+    pub fn failing_at(&self, network: &Network, u: &[f64], failing: &mut Vec<usize>) -> u64 {
+        failing.clear();
+        let bonds = network.bonds.len();
+        if let Made::Virial(_) = &self.law {
+            let forces = BondForce::all(network, u, &vec![1.0; bonds]);
+            failing.extend(self.failing(network, &forces));
+            return bonds as u64;
+        }
+        let mut seen = 0;
+        for b in (0..bonds).filter(|&b| self.may_break(b)) {
+            seen += 1;
+            let stress = BondForce::of(network, b, u, 1.0).stress(&self.sections[b]);
+            let demand = match &self.law {
+                Made::BondStress(law) => law.demand(b, stress),
+                Made::Softening(law) => law.demand(b, self.stage[b], stress),
+                Made::Virial(_) => 0.0,
+            };
+            if demand >= 1.0 {
+                failing.push(b);
+            }
+        }
+        seen
     }
 
     /// All bonds of sites whose demand has reached one, ascending: what an explicit integrator lets [`Failure::fail`]

@@ -6,11 +6,6 @@ use crate::space::Space;
 /// Sides shorter than this share of the box are rounding.
 const ROUNDING: f64 = 1e-9;
 
-/// The smallest box around both.
-pub(super) fn around(a: &Block, b: &Block) -> Block {
-    Block { min: a.min.inf(&b.min), max: a.max.sup(&b.max) }
-}
-
 /// What is left of a box without a hole, in boxes: for each axis in turn the slab before the hole and the one after it.
 pub(super) fn without(space: Space, whole: Block, hole: &Block) -> Vec<Block> {
     let small = ROUNDING * whole.sides().max();
@@ -64,7 +59,7 @@ mod tests {
         }
         assert_eq!(without(Space::Solid, whole, &solid([4.0, 0.0, 0.0], [5.0, 1.0, 1.0])), [whole]);
         assert_eq!(
-            around(&whole, &solid([-1.0, 1.0, 1.0], [1.0, 5.0, 2.0])),
+            whole.around(&solid([-1.0, 1.0, 1.0], [1.0, 5.0, 2.0])),
             solid([-1.0, 0.0, 0.0], [4.0, 5.0, 2.0])
         );
     }

@@ -23,6 +23,7 @@ pub(super) fn plan(model: &Model, plan: &Plan) -> Result<()> {
     stepping(plan)?;
     damping(plan)?;
     rotations(model, plan)?;
+    breaking(plan)?;
     plan.switches.iter().enumerate().try_for_each(|(k, _)| rule(model, plan, k))
 }
 
@@ -136,6 +137,27 @@ fn rotations(model: &Model, plan: &Plan) -> Result<()> {
             "finite rotations of its particles need explicit steps; take these, or small rotations",
         ),
     }
+}
+
+/// Bonds break between explicit steps, in networks that stay.
+fn breaking(plan: &Plan) -> Result<()> {
+    let refuse =
+        |message: &str| Err(Error::Load { what: "breaking bonds".to_owned(), message: message.to_owned() });
+    if plan.laws.is_empty() {
+        return match plan.contact {
+            Some(_) => {
+                refuse("particles touch only where bonds may break; give failure laws, or leave contact out")
+            }
+            None => Ok(()),
+        };
+    }
+    if !matches!(plan.stepping, Stepping::Explicit { .. }) {
+        return refuse("bonds break between explicit steps only; take these, or crack by events");
+    }
+    if !plan.switches.is_empty() {
+        return refuse("a run that switches does not break bonds; start with particles, or crack by events");
+    }
+    Ok(())
 }
 
 fn rule(model: &Model, plan: &Plan, index: usize) -> Result<()> {

@@ -83,11 +83,22 @@ impl Frozen {
 
 /// All of a plan but what it starts from and what it packs: that shows in the model.
 fn of_plan(plan: &Plan) -> Fingerprint {
-    let Plan { stepping, end_s, initial_velocity: _, loads, damping, rotations, outputs, switches } = plan;
+    let Plan {
+        stepping,
+        end_s,
+        initial_velocity: _,
+        loads,
+        damping,
+        rotations,
+        outputs,
+        switches,
+        laws,
+        contact,
+    } = plan;
     let rule = |rule: &SwitchRule| {
         let SwitchRule { name, body, when, fill: _, method, multipliers, rotations, mode, finite } = rule;
         format!("{name:?} {body:?} {when:?} {method:?} {multipliers:?} {rotations} {mode:?} {finite}")
     };
     let rules: Vec<String> = switches.iter().map(rule).collect();
-    Fingerprint::of(&(stepping, end_s, loads, damping, rotations, outputs, rules))
+    Fingerprint::of(&(stepping, end_s, loads, damping, rotations, outputs, rules, laws, contact))
 }

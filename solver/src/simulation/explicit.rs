@@ -6,6 +6,7 @@ use super::clock::Clock;
 use super::plan::Plan;
 use super::segment::{Look, Stepper};
 use crate::dynamics::State;
+use crate::dynamics::breaking::Breaking;
 use crate::dynamics::explicit::{Explicit, Observation, Options};
 use crate::dynamics::ledger::Ledger;
 use crate::dynamics::load::LoadFactor;
@@ -30,7 +31,11 @@ impl Central {
             damping: plan.damping,
             rotations: plan.rotations,
         };
-        Ok(Central(Explicit::new(model, options, from)?))
+        if plan.laws.is_empty() {
+            return Ok(Central(Explicit::new(model, options, from)?));
+        }
+        let breaking = Breaking::new(model, plan.laws.clone(), plan.contact)?;
+        Ok(Central(Explicit::with_breaking(model, options, from, breaking)?))
     }
 }
 
@@ -51,6 +56,10 @@ impl Stepper for Central {
 
     fn work(&self) -> Work {
         self.0.work()
+    }
+
+    fn breaking(&self) -> Option<&Breaking> {
+        self.0.breaking()
     }
 
     fn freeze(&self) -> Vec<u8> {

@@ -1,6 +1,8 @@
 //! What comes out of a run.
 
+use crate::contact::ContactEnergy;
 use crate::dynamics::State;
+use crate::dynamics::breaking::Loss;
 use crate::model::Model;
 use crate::transfer::report::SwitchReport;
 use crate::work::Work;
@@ -20,6 +22,10 @@ pub struct Energies {
     pub damping: f64,
     /// Work of the ties.
     pub interface: f64,
+    /// Work of contacts: negative while they close.
+    pub contact: f64,
+    /// Taken by bonds that failed: negative.
+    pub fracture: f64,
     /// What the switches added: energy after less energy before.
     pub transfer: f64,
     /// Kinetic and strain energy at the start.
@@ -29,8 +35,8 @@ pub struct Energies {
 impl Energies {
     /// Energy that no entry accounts for.
     pub fn imbalance(&self) -> f64 {
-        let come = self.initial + self.external + self.damping + self.interface + self.transfer;
-        self.kinetic + self.strain - come
+        let work = self.external + self.damping + self.interface + self.contact + self.fracture;
+        self.kinetic + self.strain - (self.initial + work + self.transfer)
     }
 
     /// [`Energies::imbalance`] over the largest entry; zero if all are zero.
@@ -41,6 +47,8 @@ impl Energies {
             self.external,
             self.damping,
             self.interface,
+            self.contact,
+            self.fracture,
             self.transfer,
             self.initial,
         ];
@@ -65,6 +73,8 @@ pub struct Snapshot<'a> {
     pub reactions: &'a [f64],
     /// Switches so far.
     pub switches: usize,
+    /// Bonds that have lost stiffness so far, each time counted.
+    pub losses: usize,
     pub(super) freeze: &'a dyn Fn() -> Vec<u8>,
 }
 
@@ -78,7 +88,7 @@ impl Snapshot<'_> {
 /// The end of a run.
 #[derive(Debug, Clone)]
 pub struct Outcome {
-    /// The model at the end.
+    /// The model at the end; weights of bonds are what is left of them.
     pub model: Model,
     /// Its motion.
     pub state: State,
@@ -88,6 +98,10 @@ pub struct Outcome {
     pub worst_closure: f64,
     /// Name of the rule and report of every switch, in order.
     pub switches: Vec<(String, SwitchReport)>,
+    /// Bonds that lost stiffness, in order.
+    pub losses: Vec<Loss>,
+    /// Energies in contacts at the end.
+    pub contact: ContactEnergy,
     /// Rows that were dropped and steps that were chosen, in words.
     pub notes: Vec<String>,
     /// What was done.

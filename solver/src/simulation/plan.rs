@@ -1,5 +1,6 @@
 //! What to run.
 
+use crate::contact::law::ContactLaw;
 use crate::coupling::{Method, Multipliers};
 use crate::dem::arrangement::Matter;
 use crate::dem::block::Block;
@@ -10,6 +11,7 @@ use crate::dynamics::load::LoadFactor;
 use crate::dynamics::multirate;
 use crate::dynamics::newmark::Scheme;
 use crate::error::Result;
+use crate::failure::Failure;
 use crate::transfer::criterion::Criterion;
 use crate::transfer::fields::Mode;
 
@@ -127,4 +129,8 @@ pub struct Plan<'a> {
     pub outputs: usize,
     /// What is switched on the way.
     pub switches: Vec<SwitchRule<'a>>,
+    /// Laws by which bonds break, with the part of each; explicit steps without switches.
+    pub laws: Vec<(usize, Failure)>,
+    /// How particles touch that have lost a bond; with `laws` only.
+    pub contact: Option<ContactLaw>,
 }

@@ -3,6 +3,7 @@
 use super::clock::Clock;
 use super::plan::{Plan, Step};
 use crate::dynamics::State;
+use crate::dynamics::breaking::Breaking;
 use crate::dynamics::critical;
 use crate::dynamics::semidiscrete::Semidiscrete;
 use crate::error::Result;
@@ -22,6 +23,9 @@ pub(super) struct Record {
     pub switches: Vec<(String, SwitchReport)>,
     /// Wall time of the switches, in s.
     pub switch_seconds: f64,
+    /// Bonds that have broken, with what is left of them; `None` where nothing breaks.
+    #[serde(skip)]
+    pub breaking: Option<Breaking>,
 }
 
 impl Record {

@@ -12,7 +12,10 @@ use super::segment::{Beginning, Course, Ending, SoFar, Stepper};
 use super::switching::{Job, Rules};
 use super::two_rates::TwoRates;
 use super::{check, start};
+use crate::checkpoint::refuse;
+use crate::contact::ContactEnergy;
 use crate::dynamics::State;
+use crate::dynamics::breaking::Breaking;
 use crate::error::Error;
 use crate::model::{Model, Numbering, Part};
 use crate::stage::{Stage, timed};
@@ -66,6 +69,9 @@ fn on_from<E: From<Error>>(
     watch: &mut dyn FnMut(&Snapshot) -> Result<(), E>,
 ) -> Result<Outcome, E> {
     check::plan(&model, plan)?;
+    if !plan.laws.is_empty() {
+        return Err(refuse("a run that breaks bonds has no checkpoints; run it through").into());
+    }
     let mut course = Course::new(plan, Rules::new(&model, plan));
     let frozen = Frozen::open(checkpoint, &mut model, &mut course)?;
     let from = State { time: frozen.since, ..State::at_rest(Numbering::new(&model).len()) };
@@ -93,8 +99,24 @@ fn to_the_end<E: From<Error>>(
             .note(format!("{merged} outputs share a step boundary with another: fewer snapshots were taken"));
     }
     let Ending { look, energies, .. } = ending;
-    let Record { work, notes, switches, switch_seconds } = record;
-    Ok(Outcome { model, state: look.state, energies, worst_closure, switches, notes, work, switch_seconds })
+    let Record { work, notes, switches, switch_seconds, breaking } = record;
+    for (part, left) in breaking.iter().flat_map(Breaking::networks) {
+        if let Part::Discrete { network, .. } = &mut model.parts[part] {
+            network.bonds.weight.clone_from(&left.bonds.weight);
+        }
+    }
+    Ok(Outcome {
+        model,
+        state: look.state,
+        energies,
+        worst_closure,
+        switches,
+        losses: breaking.as_ref().map_or_else(Vec::new, |b| b.losses().to_vec()),
+        contact: breaking.as_ref().map_or_else(ContactEnergy::default, Breaking::contact_energy),
+        notes,
+        work,
+        switch_seconds,
+    })
 }
 
 /// Replaces elements until no rule is due any more.
@@ -136,6 +158,7 @@ fn segment<E: From<Error>>(
         }
         let ending = course.follow(model, stepper, clock, (&beginning, record), watch);
         record.work += stepper.work();
+        record.breaking = stepper.breaking().cloned();
         ending
     };
     match stepping_of(model, plan) {

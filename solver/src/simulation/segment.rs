@@ -7,6 +7,7 @@ use super::plan::Plan;
 use super::record::Record;
 use super::switching::{Job, Rules};
 use crate::dynamics::State;
+use crate::dynamics::breaking::Breaking;
 use crate::dynamics::ledger::WorkDone;
 use crate::error::{Error, Result};
 use crate::model::Model;
@@ -24,6 +25,10 @@ pub(super) trait Stepper {
     fn look(&mut self) -> Result<Look>;
     /// What was done so far.
     fn work(&self) -> Work;
+    /// Bonds that have broken; `None` where nothing breaks.
+    fn breaking(&self) -> Option<&Breaking> {
+        None
+    }
     /// All that changes from step to step.
     fn freeze(&self) -> Vec<u8>;
     /// Puts back what the same stepper gave.
@@ -139,6 +144,7 @@ impl<'a> Course<'a> {
                     gap: look.gap,
                     reactions: &look.reactions,
                     switches: course.so_far.switches,
+                    losses: stepper.breaking().map_or(0, |b| b.losses().len()),
                     freeze: &|| Frozen::of(course, (model, record), beginning.since, (k, stepper)).seal(),
                 };
                 timed(Stage::Output, || watch(&snapshot))?;
@@ -178,6 +184,8 @@ impl<'a> Course<'a> {
         self.so_far.base.external += done.external;
         self.so_far.base.damping += done.damping;
         self.so_far.base.interface += done.interface;
+        self.so_far.base.contact += done.contact;
+        self.so_far.base.fracture += done.fracture;
     }
 
     fn energies(&self, look: &Look) -> Energies {
@@ -187,6 +195,8 @@ impl<'a> Course<'a> {
             external: self.so_far.base.external + look.done.external,
             damping: self.so_far.base.damping + look.done.damping,
             interface: self.so_far.base.interface + look.done.interface,
+            contact: self.so_far.base.contact + look.done.contact,
+            fracture: self.so_far.base.fracture + look.done.fracture,
             ..self.so_far.base
         }
     }

@@ -1,6 +1,6 @@
 //! Which rules switch now, and doing it.
 
-use super::boxes::{around, without};
+use super::boxes::without;
 use super::plan::{Plan, SwitchRule, When};
 use super::start::admit;
 use crate::dem::block::Block;
@@ -121,7 +121,7 @@ impl<'a> Rules<'a> {
             let cells = criterion.choose(body, &u[first..first + body.dof_count()], &BTreeSet::new())?;
             let nodes = cells.iter().flat_map(|&c| body.mesh.cell(c)).map(|&n| &body.mesh.nodes[n]);
             if let Some(block) = bounds(nodes) {
-                wanted = Some(wanted.map_or(block, |all| around(&all, &block)));
+                wanted = Some(wanted.map_or(block, |all| all.around(&block)));
             }
         }
         let Some(mut wanted) = wanted else { return Ok(Vec::new()) };
@@ -130,7 +130,7 @@ impl<'a> Rules<'a> {
                 (wanted.min[i], wanted.max[i]) = (body.min[i], body.max[i]);
             }
         }
-        let whole = self.progress[rule].grown.map_or(wanted, |old| around(&old, &wanted));
+        let whole = self.progress[rule].grown.map_or(wanted, |old| old.around(&wanted));
         self.progress[rule].grown = Some(whole);
         let body = &self.rules[rule].body;
         let same_body = self.rules.iter().zip(&self.progress).filter(|(r, _)| r.body == *body);
@@ -226,7 +226,7 @@ impl<'a> Rules<'a> {
 
 /// Box around points; `None` without any.
 fn bounds<'p>(points: impl IntoIterator<Item = &'p Vec3>) -> Option<Block> {
-    points.into_iter().map(|&x| Block { min: x, max: x }).reduce(|a, b| around(&a, &b))
+    points.into_iter().map(|&x| Block { min: x, max: x }).reduce(|a, b| a.around(&b))
 }
 
 /// The body of elements of a rule.

@@ -75,6 +75,7 @@ impl Stepper for TwoRates<'_> {
             external: ledger.physical_external,
             damping: 0.0,
             interface: ledger.physical_interface,
+            ..WorkDone::default()
         };
         let lambda = self.multirate.multipliers();
         let energies = (self.multirate.kinetic(), done);

@@ -76,6 +76,54 @@ impl Region {
         }
         Ok(Region { cells, block })
     }
+
+    /// The smallest box region that holds `wanted` and is cut out along its faces alone: the cells whose centre lies in it. It may be
+    /// hollow, as where a notch reaches into it; what fills it has to be hollow there too.
+    ///
+    /// # Errors
+    /// No cells, or cells whose border to the others does not lie on the faces of their box.
+    pub fn around(body: &Continuum, wanted: Block) -> Result<Region> {
+        let mesh = &body.mesh;
+        let refuse =
+            |message: String| Error::Switch { what: format!("region in body '{}'", body.name), message };
+        let mut cells = cells_in(mesh, &wanted);
+        if cells.is_empty() {
+            return Err(refuse("it has no elements; widen it".to_owned()));
+        }
+        let mut block;
+        loop {
+            let corners = cells.iter().flat_map(|&c| mesh.cell(c)).map(|&n| mesh.nodes[n]);
+            let empty = (Vec3::repeat(f64::INFINITY), Vec3::repeat(f64::NEG_INFINITY));
+            let (low, high) = corners.fold(empty, |(low, high), x| (low.inf(&x), high.sup(&x)));
+            block = Block { min: low, max: high };
+            let more = cells_in(mesh, &block);
+            if more.len() == cells.len() {
+                break;
+            }
+            cells = more;
+        }
+        let inside: BTreeSet<usize> = cells.iter().copied().collect();
+        let on_face = |x: Vec3| Block::faces(mesh.space).iter().any(|f| block.on_face(x, f.1, f.2));
+        for facets in mesh.facets_by_nodes().into_values().filter(|facets| facets.len() == 2) {
+            if inside.contains(&facets[0].cell) == inside.contains(&facets[1].cell) {
+                continue;
+            }
+            if let Some(&node) = mesh.facet_nodes(&facets[0]).iter().find(|&&n| !on_face(mesh.nodes[n])) {
+                let x = mesh.nodes[node];
+                return Err(refuse(format!(
+                    "its border passes node {node} at ({:.6}, {:.6}) m, which is on no face of the box from ({:.6}, {:.6}) to ({:.6}, \
+                     {:.6}) m; let the mesh have straight lines along the box, and the box reach beyond the notch",
+                    x.x, x.y, block.min.x, block.min.y, block.max.x, block.max.y
+                )));
+            }
+        }
+        Ok(Region { cells, block })
+    }
+
+    /// Area (m²) or volume (m³) of its cells.
+    pub fn measure(&self, mesh: &Mesh) -> f64 {
+        self.cells.iter().map(|&c| measure(mesh, c)).sum()
+    }
 }
 
 /// Cells whose centre lies in a box.

@@ -82,8 +82,7 @@ pub enum Origin {
 /// Replaces elements by particles in a model and a state, with the loads scaled by `factor` at this time.
 ///
 /// # Errors
-/// A part that is not made of elements, a filling that does not fill, supports or loads that cannot move, and
-/// whatever building and solving the new model refuses.
+/// As [`replace_elements`], and whatever solving the new model refuses.
 pub fn substitute(
     model: &Model,
     state: &State,
@@ -91,6 +90,49 @@ pub fn substitute(
     factor: f64,
     work: &mut Work,
 ) -> Result<Switched> {
+    let (Replaced { model: new, origins, discrete }, pieces) = replace(model, switch)?;
+    let mut mapped = map_state(model, state, &new, &origins, switch, discrete)?;
+    let before = report::balance(model, state, factor, work)?;
+    let as_mapped = report::balance(&new, &mapped, factor, work)?;
+    if switch.mode >= Mode::ReEquilibrate {
+        let mass = lumped(&new, &Numbering::new(&new))?;
+        let relax = || equilibrium::relax(&new, discrete, &mut mapped, factor, &mass);
+        *work += timed(Stage::Relaxation, relax)?;
+    }
+    let after = report::balance(&new, &mapped, factor, work)?;
+    let interface = interface_forces(model, state, &new, &mapped, switch, &pieces, discrete)?;
+    let report = SwitchReport {
+        time: state.time,
+        elements: switch.region.cells.len(),
+        particles: new.parts[discrete].positions().len(),
+        before,
+        mapped: as_mapped,
+        after,
+        interface,
+    };
+    Ok(Switched { model: new, state: mapped, discrete, origins, report })
+}
+
+/// A model with particles in place of elements, without a state.
+#[derive(Debug, Clone)]
+pub struct Replaced {
+    /// The new model; parts as in [`Switched`].
+    pub model: Model,
+    /// For every new part, where it comes from.
+    pub origins: Vec<Origin>,
+    /// Index of the new body of particles.
+    pub discrete: usize,
+}
+
+/// Replaces elements by particles in a model; its state has to be found anew.
+///
+/// # Errors
+/// A part that is not made of elements, a filling that does not fill, supports or loads that cannot move.
+pub fn replace_elements(model: &Model, switch: &Switch) -> Result<Replaced> {
+    replace(model, switch).map(|(replaced, _)| replaced)
+}
+
+fn replace(model: &Model, switch: &Switch) -> Result<(Replaced, Vec<Piece>)> {
     let Some(Part::Continuum(body)) = model.parts.get(switch.part) else {
         let message = format!("part {} is not made of elements; name one that is", switch.part);
         return Err(Error::Switch { what: "switch".to_owned(), message });
@@ -130,26 +172,7 @@ pub fn substitute(
         loads: Vec::new(),
     };
     move_values(model, &mut new, switch, &pieces, &index_of_piece, discrete)?;
-    let mut mapped = map_state(model, state, &new, &origins, switch, discrete)?;
-    let before = report::balance(model, state, factor, work)?;
-    let as_mapped = report::balance(&new, &mapped, factor, work)?;
-    if switch.mode >= Mode::ReEquilibrate {
-        let mass = lumped(&new, &Numbering::new(&new))?;
-        let relax = || equilibrium::relax(&new, discrete, &mut mapped, factor, &mass);
-        *work += timed(Stage::Relaxation, relax)?;
-    }
-    let after = report::balance(&new, &mapped, factor, work)?;
-    let interface = interface_forces(model, state, &new, &mapped, switch, &pieces, discrete)?;
-    let report = SwitchReport {
-        time: state.time,
-        elements: switch.region.cells.len(),
-        particles: new.parts[discrete].positions().len(),
-        before,
-        mapped: as_mapped,
-        after,
-        interface,
-    };
-    Ok(Switched { model: new, state: mapped, discrete, origins, report })
+    Ok((Replaced { model: new, origins, discrete }, pieces))
 }
 
 /// Puts a part at an index, or at the end beyond the last.
@@ -176,11 +199,11 @@ fn fill(body: &Continuum, switch: &Switch) -> Result<Network> {
         return refuse(format!("it is {:?}, the body {:?}; use one space", network.space, body.mesh.space));
     }
     let mass: f64 = network.particles.mass.iter().sum();
-    let wanted = matter.density * switch.region.block.measure(network.space) * matter.thickness_m;
+    let wanted = matter.density * switch.region.measure(&body.mesh) * matter.thickness_m;
     let off = (mass / wanted - 1.0).abs();
     if off.is_nan() || off > MASS {
         return refuse(format!(
-            "its mass is {mass:.9e} kg, that of the elements {wanted:.9e} kg; fill the whole box"
+            "its mass is {mass:.9e} kg, that of the elements {wanted:.9e} kg; fill the whole box, but for its notch"
         ));
     }
     for (face, _, _) in Block::faces(network.space) {

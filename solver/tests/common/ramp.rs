@@ -92,6 +92,8 @@ pub fn ramp(stepping: Stepping) -> Plan<'static> {
         rotations: Rotations::Small,
         outputs: 20,
         switches: vec![rule(When::LoadLevel { factor: 0.5, block: block(3.0, 6.0) })],
+        laws: Vec::new(),
+        contact: None,
     }
 }
 

@@ -148,6 +148,8 @@ fn switched(setting: &Setting, space: Space, rows: usize, explicit: bool, work: 
         rotations: Rotations::Small,
         outputs: 20,
         switches: vec![switch],
+        laws: Vec::new(),
+        contact: None,
     };
     let outcome = simulate(model, &plan, &mut |_| Ok::<(), Error>(()))?;
     *work += outcome.work;

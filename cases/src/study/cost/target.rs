@@ -76,6 +76,7 @@ impl Target {
             norm: curve.then_some(Norm::Largest),
             zone: Zone::Whole,
             extrapolated: false,
+            as_share: false,
             reference: None,
             accept: None,
         };

@@ -22,10 +22,10 @@ pub fn effect(file: &SceneFile, solved: &Solved) -> EffectUse {
     if !asked {
         return left_out(solved);
     }
-    let tied = match &solved.course {
-        None => solved.solution.multipliers.iter().filter(|(row, _)| holds_rotation(row)).count(),
-        // The model has run with these ties, so they can be made.
-        Some(_) => rotation_rows(&solved.built.model, solved).len(),
+    // A model that has run with these ties can have them made.
+    let tied = match solved.course.is_some() || solved.cracked.is_some() {
+        false => solved.solution.multipliers.iter().filter(|(row, _)| holds_rotation(row)).count(),
+        true => rotation_rows(&solved.built.model, solved).len(),
     };
     on(NAME, "a tie asks for it", tied as u64)
 }

@@ -3,6 +3,8 @@
 //! One file per effect; each gives its counter where the effect is on, and an indicator with a limit where it is off.
 
 mod ablation;
+mod bond_failure;
+mod contact;
 mod coupling;
 mod damping;
 mod inertia;
@@ -22,9 +24,9 @@ pub fn used(file: &SceneFile, solved: &Solved) -> Vec<EffectUse> {
         inertia::effect(file, solved),
         rotation::effect(file, solved),
         coupling::effect(file, solved),
-        off("bond-failure", "the scene gives no strength"),
-        off("contact", "bonded particles do not meet in small motion"),
-        off("friction", "there is no contact"),
+        bond_failure::effect(file, solved),
+        contact::effect(file, solved),
+        contact::friction(file, solved),
         damping::effect(file, solved),
         substitution::effect(file, solved),
     ]

@@ -17,6 +17,14 @@ pub fn effect(file: &SceneFile, solved: &Solved) -> EffectUse {
             None => off(NAME, "the list of effects leaves it out, and its switch has nothing to look at"),
         };
     }
+    if let Some(cracked) = solved.cracked.as_ref().filter(|cracked| !cracked.grown.is_empty()) {
+        let steps = cracked.grown.len();
+        let (elements, particles) = cracked.grown.last().map_or((0, 0), |g| (g.elements, g.particles));
+        let why = format!(
+            "the scene asks for it: {elements} elements became {particles} particles in {steps} steps ahead of the crack"
+        );
+        return on(NAME, why, steps as u64);
+    }
     let reports = solved.course.as_ref().map_or(&[][..], |course| &course.switches.reports);
     match (scene.switches.is_empty(), reports) {
         (true, _) => off(NAME, "bodies keep their method"),

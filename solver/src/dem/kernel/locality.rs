@@ -94,6 +94,11 @@ impl Detour {
         Detour { order, per_particle, room }
     }
 
+    /// Place of a particle in the better order.
+    pub fn place(&self, particle: usize) -> usize {
+        self.order.iter().position(|&p| p == particle).unwrap_or(particle)
+    }
+
     /// Calls `with` on `u` in the better order.
     pub fn read<T>(&self, u: &[f64], with: impl FnOnce(&[f64]) -> T) -> T {
         let [there, _] = &mut *self.room.lock().expect("no thread panics in a detour");

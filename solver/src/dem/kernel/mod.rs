@@ -47,6 +47,14 @@ impl Kernel {
         }
     }
 
+    /// Gives a bond the weight that it has in `network`; its particles have the numbers `ends` in here.
+    pub fn set_weight(&mut self, network: &Network, bond: usize, ends: [usize; 2]) {
+        match &mut self.0 {
+            Records::Plane(rows) => rows.set_weight(network, bond, ends),
+            Records::Solid(rows) => rows.set_weight(network, bond, ends),
+        }
+    }
+
     /// `f += K u`: internal forces (N, N m) from displacements and rotations, particle by particle.
     pub fn add_internal(&self, u: &[f64], f: &mut [f64]) {
         match &self.0 {
@@ -98,6 +106,17 @@ impl<R: Record<D>, const D: usize> Rows<R, D> {
             R::new(h, network.bonds.stiffness[b], network.bonds.weight[b])
         };
         Rows { start, other: pairs.iter().map(|p| p.1).collect(), bonds: pairs.iter().map(record).collect() }
+    }
+
+    fn set_weight(&mut self, network: &Network, bond: usize, [i, j]: [usize; 2]) {
+        let (low, high) = (i.min(j), i.max(j));
+        let range = self.start[low] as usize..self.start[low + 1] as usize;
+        let Some(k) = self.other[range.clone()].iter().position(|&o| o as usize == high) else { return };
+        let [a, b] = network.bonds.ends[bond];
+        let x = &network.particles.position;
+        // From the lower particle to the higher one, in the numbers used here.
+        let h = if i < j { 0.5 * (x[b] - x[a]) } else { 0.5 * (x[a] - x[b]) };
+        self.bonds[range.start + k] = R::new(h, network.bonds.stiffness[bond], network.bonds.weight[bond]);
     }
 
     fn add_internal(&self, u: &[[f64; D]], f: &mut [[f64; D]]) {
@@ -183,6 +202,31 @@ mod tests {
             let error = f.iter().zip(&expected).fold(0.0f64, |m, (a, b)| m.max((a - b).abs()));
             // Both are sums of a few dozen products: rounding of the largest.
             assert!(error < 1e-13 * scale, "{space:?}: {error:e} of {scale:e}");
+        }
+    }
+
+    /// Weights set one by one make the kernel of a network that had them from the start.
+    #[test]
+    fn a_weight_can_be_set() {
+        for space in [Space::Plane, Space::Solid] {
+            let mut network = tangle(space, 12);
+            network.bonds.weight.iter_mut().for_each(|w| *w = w.max(0.1));
+            let mut kernel = Kernel::new(&network, "b").unwrap();
+            for bond in 0..network.bonds.len() {
+                network.bonds.weight[bond] = 0.3 * (bond % 4) as f64;
+                kernel.set_weight(&network, bond, network.bonds.ends[bond]);
+            }
+            let n = 12 * space.dofs_per_particle();
+            let u: Vec<f64> = (0..n).map(|i| (1.7 * i as f64).sin()).collect();
+            let forces = |kernel: &Kernel| {
+                let mut f = vec![0.0; n];
+                kernel.add_internal(&u, &mut f);
+                f
+            };
+            let (set, made) = (forces(&kernel), forces(&Kernel::new(&network, "b").unwrap()));
+            let scale = made.iter().fold(0.0f64, |m, v| m.max(v.abs()));
+            // The same sums, with zeros in between.
+            assert!(set.iter().zip(&made).all(|(a, b)| (a - b).abs() <= 1e-14 * scale), "{space:?}");
         }
     }
 

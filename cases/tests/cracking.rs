@@ -1,0 +1,163 @@
+//! Scenes that crack: what is accepted, what an error says, and what a run tells.
+
+use seam_cases::checkpoint::Checkpoints;
+use seam_cases::file::SceneFile;
+use seam_cases::folder::Folder;
+use seam_cases::overrides::Override;
+use seam_cases::result::CaseResult;
+use seam_cases::scene::Tier;
+
+/// A square lattice in tension between two faces, notched by nothing: it breaks in its zone.
+const STRIP: &str = r#"id = "strip"
+title = "A strip in tension"
+
+[parameters]
+strength_Pa = 1e6
+
+[materials.stuff]
+young_Pa = 1e9
+poisson = 0
+
+[bodies.strip]
+method = "de"
+material = "stuff"
+box = { min = [0, 0], max = [2, 1] }
+fe = { divisions = [8, 4] }
+de = { arrangement = "square", rows = 8, bond = { calibrate = "young", radius_ratio = 1.1547005383792517 } }
+
+[supports.left]
+on = "strip.left"
+ux = 0
+uy = 0
+
+[loads.right]
+on = "strip.right"
+total_N = [1, 0]
+
+[failure.tension]
+body = "strip"
+bond_stress = { tensile = { stress_Pa = "strength_Pa" } }
+zone = { min = [0.5, -1], max = [1.5, 2] }
+
+[cracking]
+
+[probes.peak]
+read = "peak-force"
+
+[probes.closure]
+read = "path-closure"
+
+[quantities.peak]
+label = "Peak"
+probe = "peak"
+
+[quantities.closure]
+label = "Closure"
+probe = "closure"
+accept = { interval = [0, 1e-10], why = "Rounding." }
+"#;
+
+fn read(changes: &[&str]) -> Result<SceneFile, String> {
+    let changes: Vec<Override> = changes.iter().map(|c| Override::parse(c).unwrap()).collect();
+    SceneFile::read("strip.toml", STRIP, Folder::Catalogue, &changes).map_err(|e| e.to_string())
+}
+
+fn run(changes: &[&str]) -> Result<CaseResult, String> {
+    seam_cases::study::run(&read(changes)?, Tier::Quick, &Checkpoints::default())
+        .map(|run| run.result)
+        .map_err(|e| e.to_string())
+}
+
+fn value(result: &CaseResult, id: &str) -> f64 {
+    result.quantities.iter().find(|q| q.id == id).unwrap().value
+}
+
+#[test]
+fn faults_name_key_and_mend() {
+    for (changes, expected) in [
+        (&["cracking=none"][..], ["nothing lets bonds fail", "key: failure.tension", "add [cracking]"]),
+        (&["effects=[\"inertia\"]"], ["`bond-failure` is off", "failure.tension", "add \"bond-failure\""]),
+        (&["failure.tension.enabled=false"], ["nothing can fail", "cracking", "add a [failure.NAME]"]),
+        (
+            &["failure.tension.body=stripe"],
+            ["no body 'stripe'", "failure.tension.body", "did you mean 'strip'?"],
+        ),
+        (
+            &["bodies.strip.method=fe"],
+            ["no bonds that could break", "failure.tension.body", "method = \"de\""],
+        ),
+        (
+            &["failure.tension.bond_stress={}"],
+            ["no stress breaks a bond", "failure.tension.bond_stress", "tensile, shear"],
+        ),
+        (
+            &["failure.tension.softening={ tensile = { stress_Pa = 1 }, fracture_energy_J_m2 = 1 }"],
+            ["exactly one way", "failure.tension", "bond_stress, virial_stress, softening"],
+        ),
+        (
+            &["failure.tension.bond_stress.tensile={ toughness_Pa_sqrt_m = 1 }"],
+            ["strength is given in exactly one way", "tensile", "with factor"],
+        ),
+        (&["parameters.strength_Pa=0"], ["expected a positive number", "stress_Pa", ""]),
+        (
+            &["failure.tension.scatter={ modulus = -1 }"],
+            ["expected a positive number", "failure.tension.scatter.modulus", ""],
+        ),
+        (&["cracking.events=0"], ["at least 1", "cracking.events", ""]),
+        (&["cracking.least_stiffness=1"], ["no share", "cracking.least_stiffness", "below one"]),
+        (
+            &["contact={ linear = { stiffness_N_m = 1 }, restitution = 0.5 }"],
+            ["explicit steps", "contact", ""],
+        ),
+        (&["probes.peak.up_to_m=1"], ["does not fit", "probes.peak.up_to_m", "envelope-work"]),
+        (&["probes.peak.read=crack-path"], ["norm does not fit", "quantities.peak.norm", ""]),
+        (
+            &["dynamics={ stepping = \"explicit\", step_share = 0.5, end_s = 1 }"],
+            ["have no time", "cracking", "keep one"],
+        ),
+    ] {
+        let message = read(changes).unwrap_err();
+        for part in expected {
+            assert!(message.contains(part), "{changes:?}: expected '{part}' in:\n{message}");
+        }
+    }
+}
+
+/// Faults that need the particles.
+#[test]
+fn supports_in_the_zone_and_empty_zones_are_refused() {
+    for (changes, expected) in [
+        (
+            &["failure.tension.zone.min=[-1, -1]"][..],
+            ["support 'left' acts at (0.0", "failure.tension.zone", "shrink"],
+        ),
+        (&["failure.tension.zone.max=[3, 2]"], ["a load acts at (2.0", "failure.tension.zone", "shrink"]),
+        (&["failure.tension.zone.max=[0.51, 2]"], ["no bond of body 'strip' may break", "zone", "enlarge"]),
+    ] {
+        let message = run(changes).unwrap_err();
+        for part in expected {
+            assert!(message.contains(part), "{changes:?}: expected '{part}' in:\n{message}");
+        }
+    }
+}
+
+/// Tension breaks a section at about `σ_t A`: a little less, since equal forces on the particles of the end are no uniform traction.
+#[test]
+fn a_strip_breaks_at_its_strength() {
+    let result = run(&[]).unwrap();
+    let peak = value(&result, "peak") / 1e6;
+    assert!((0.9..1.001).contains(&peak), "{peak}");
+    assert!(value(&result, "closure") < 1e-10);
+    let effect = result.effects.iter().find(|e| e.name == "bond-failure").unwrap();
+    assert!(effect.on && effect.counter > 0, "{effect:?}");
+    let broken = result.pictures.iter().map(|p| p.broken.len()).max().unwrap();
+    assert!(broken as u64 >= 9 && result.curves.iter().any(|c| c.id == "path"), "{broken}");
+    // Teeth stand above and below the curve; the highest stress is above the strength by less than a tooth.
+    let softened = run(&[
+        "failure.tension.bond_stress=none",
+        "failure.tension.softening={ tensile = { stress_Pa = \"strength_Pa\" }, fracture_energy_J_m2 = 500 }",
+    ])
+    .unwrap();
+    let peak = value(&softened, "peak") / 1e6;
+    assert!((0.9..1.3).contains(&peak) && value(&softened, "closure") < 1e-10, "{peak}");
+}
