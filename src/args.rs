@@ -372,10 +372,13 @@ pub struct Race {
     /// Runs of each code, one after the other in turn; the median counts
     #[arg(long, value_name = "N", default_value = "3")]
     pub rounds: NonZeroUsize,
-    /// Folder for race.csv and race.toml
-    #[arg(long, value_name = "DIR", default_value = "race")]
+    /// Folder of a run: the race goes into its folder `race`, and `seam report` shows it
+    #[arg(long, value_name = "DIR", default_value = "out")]
     pub out: PathBuf,
-    /// Folder with `generators`
+    /// Record it: reports without a race of their own show this one, as run elsewhere
+    #[arg(long)]
+    pub accept: bool,
+    /// Folder with `generators` and `data`
     #[arg(long, value_name = "DIR", default_value = "references")]
     pub home: PathBuf,
 }
@@ -389,4 +392,7 @@ pub struct Lane {
     pub out: PathBuf,
     /// Threads
     pub threads: usize,
+    /// Bonds for finite rotations, on one thread
+    #[arg(long)]
+    pub finite: bool,
 }

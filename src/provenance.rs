@@ -25,6 +25,17 @@ pub fn here(references: BTreeMap<String, String>) -> Provenance {
     }
 }
 
+/// Today, UTC, ISO 8601.
+pub fn today() -> String {
+    now().split('T').next().unwrap_or_default().to_owned()
+}
+
+/// Class of this machine: processor, cores and system, but not its name.
+pub fn machine_class() -> String {
+    let cores = std::thread::available_parallelism().map_or(0, usize::from);
+    format!("{}, {cores} cores, {}, {}", std::env::consts::ARCH, processor(), std::env::consts::OS)
+}
+
 /// The words that were given, without the path of the program.
 fn command_line() -> String {
     std::iter::once("seam".to_owned()).chain(std::env::args().skip(1)).collect::<Vec<_>>().join(" ")

@@ -5,6 +5,7 @@ use crate::provenance;
 use anyhow::Result;
 use seam_cases::result::CaseResult;
 use seam_reports::judge::judge;
+use seam_reports::race::Race;
 use seam_reports::record::Recorded;
 use seam_reports::results::Results;
 use std::collections::BTreeMap;
@@ -91,6 +92,18 @@ pub fn read(file: &Path) -> Result<CaseResult> {
         |e: &dyn std::error::Error| Unmeasured(format!("{}: {e}; run the case again", file.display()));
     let text = std::fs::read_to_string(file).map_err(|e| unreadable(&e))?;
     Ok(serde_json::from_str(&text).map_err(|e| unreadable(&e))?)
+}
+
+/// The race in a folder of results; the recorded one where there is none. `None` if none is recorded.
+///
+/// # Errors
+/// A race that was altered.
+pub fn race(folder: &Path) -> Result<Option<Race>> {
+    if let Some(own) = seam_references::in_folder(folder, "race", "race")? {
+        return Ok(Some(Race::of(&own.open()?, false)?));
+    }
+    let recorded = seam_references::all().into_iter().find(|r| r.id() == "race/race");
+    Ok(recorded.map(|r| Race::of(&r.open()?, true)).transpose()?)
 }
 
 /// Judges cases, beside references of these hashes, and compares the verdicts with recorded ones.

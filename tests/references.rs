@@ -222,12 +222,24 @@ fn only_accepted_numbers_replace_what_is_committed() {
 #[test]
 fn seam_races_alone_where_nothing_else_is_installed() {
     let empty = tempfile::tempdir().unwrap();
-    let out = empty.path().join("race");
+    let out = empty.path().join("out");
     let words = ["race", "--particles", "100", "--nodes", "100", "--steps", "5", "--rounds", "1"];
     let (code, said) = references(empty.path(), &[&words[..], &["--out", out.to_str().unwrap()]].concat());
     assert_eq!(code, Some(0), "{said}");
-    let csv = fs::read_to_string(out.join("race.csv")).unwrap();
+    assert!(said.contains("yade: not installed; install it with: sh references/install/yade.sh"), "{said}");
+    assert!(said.lines().all(|line| line.starts_with('/') || line.chars().count() <= 80), "{said}");
+    let race = out.join("race/race.csv");
+    let csv = fs::read_to_string(&race).unwrap();
     let lanes: Vec<&str> = csv.lines().skip(1).map(|l| l.split(',').nth(3).unwrap()).collect();
-    assert_eq!(lanes, ["seam"; 4], "network and mesh on one and two threads: {csv}");
-    assert!(out.join("race.toml").is_file());
+    let network = ["seam", "seam-finite", "seam"];
+    assert_eq!(lanes, [&network[..], &["seam"; 2]].concat(), "one and two threads: {csv}");
+
+    pass(&["run", "bond-matrix", "--out"], &out);
+    pass(&["report", "--from"], &out);
+    let page = fs::read_to_string(out.join("report.html")).unwrap();
+    assert!(page.contains("What a user would pick instead") && !page.contains("Recorded elsewhere"));
+    fs::write(&race, csv + "\n").unwrap();
+    let altered = call(&["report", "--from"], &out);
+    assert_eq!(altered.code, Some(4), "{}", altered.stderr);
+    assert!(altered.stderr.contains("race.csv: altered"), "{}", altered.stderr);
 }

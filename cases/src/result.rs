@@ -171,6 +171,26 @@ pub struct Observation {
     pub accepted: Option<[f64; 2]>,
     /// Why the interval is as wide as it is.
     pub why: String,
+    /// What was compared with another code, where that is what it is.
+    #[serde(default)]
+    pub agreement: Option<Agreement>,
+}
+
+/// A comparison with another code: what the table of agreements shows beside value and interval.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Agreement {
+    /// The code.
+    pub code: String,
+    /// Its version.
+    pub version: String,
+    /// When it ran, ISO 8601.
+    pub date: String,
+    /// The network or mesh that the code was given.
+    pub model: String,
+    /// What is compared: `displacement`, `rotation` or something else in a few words.
+    pub compared: String,
+    /// Whether Seam was given the very same; otherwise it is another model of the same body.
+    pub same_model: bool,
 }
 
 /// A refinement study of one quantity.

@@ -63,6 +63,40 @@ fn exports_are_what_the_references_were_made_from() {
     }
 }
 
+/// What YADE was given for a beam of the catalogue is what Seam exports; of a changed beam there is nothing to compare.
+#[test]
+fn a_peer_is_compared_only_with_what_it_was_given() {
+    for id in ["ramp-transfer"] {
+        let exports = of(&catalogue::case(id, &[]).unwrap(), Code::Yade).unwrap();
+        let [beam] = &exports[..] else { panic!("{id}: {} exports", exports.len()) };
+        let reference = seam_references::find(id, "beam-yade").unwrap().open().unwrap();
+        reference.made_from(&beam.hashes()).unwrap();
+        let other = catalogue::case(id, &[Override::parse("parameters.rows.value=4").unwrap()]).unwrap();
+        assert!(reference.made_from(&of(&other, Code::Yade).unwrap()[0].hashes()).is_err(), "{id}");
+    }
+}
+
+/// Two per cent of strength, or a row of the notch, is seen.
+#[test]
+fn bonds_break_as_in_yade_and_a_changed_network_shows() {
+    let breaking = |changes: &[&str]| {
+        let changes: Vec<Override> = changes.iter().map(|c| Override::parse(c).unwrap()).collect();
+        let result = run(&catalogue::case("breaking-bonds", &changes).unwrap(), Tier::Quick).unwrap().result;
+        let bad = result.quantities.iter().filter(|q| {
+            let [low, high] = q.accepted.unwrap();
+            !(low <= q.value && q.value <= high)
+        });
+        bad.map(|q| q.id.clone()).collect::<Vec<_>>()
+    };
+    assert_eq!(breaking(&[]), Vec::<String>::new());
+    assert_eq!(
+        breaking(&["parameters.strength_Pa.value=1.02e5"]),
+        ["peak-force", "peak-displacement", "force"]
+    );
+    let notch = breaking(&["parameters.notch_rows.value=3.5"]);
+    assert!(notch.contains(&"same-bonds".to_owned()), "{notch:?}");
+}
+
 #[test]
 fn a_scene_is_exported_if_it_is_one_body_of_the_right_kind() {
     let coupled = catalogue::case("patch-coupled", &[]).unwrap();

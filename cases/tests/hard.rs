@@ -14,7 +14,9 @@ fn changed(id: &str, changes: &[&str]) -> CaseResult {
 /// Ids of quantities outside of their interval and of margins below what is needed.
 fn red(result: &CaseResult) -> Vec<String> {
     let good = |value: f64, [low, high]: [f64; 2]| low <= value && value <= high;
-    let quantities = result.quantities.iter().filter(|q| q.accepted.is_some_and(|i| !good(q.value, i)));
+    let known = |id: &String| result.expected_failures.contains_key(id);
+    let judged = result.quantities.iter().filter(|q| !known(&q.id));
+    let quantities = judged.filter(|q| q.accepted.is_some_and(|i| !good(q.value, i)));
     let small = |value: f64, needed: f64| value.is_nan() || value < needed;
     let margins = result.margins.iter().filter(|m| small(m.value, m.needed));
     quantities.map(|q| q.id.clone()).chain(margins.map(|m| format!("margin {}", m.id))).collect()
@@ -78,7 +80,7 @@ fn what_they_guard_shows_when_it_breaks() {
         assert!(red(&result).iter().any(|r| r == what), "{id}: {:?}", red(&result));
     };
     // A step that is longer than the contact.
-    breaks("contact-after-break", &["parameters.step.value=1.5"], "restitution-linear-plane");
+    breaks("contact-after-break", &["parameters.step.value=1.5"], "squeezed-linear-plane");
     // Bending that is lost in the rounding of tension.
     breaks("bond-radius", &["parameters.slender.value=1e-6"], "modes-plane-0.000001");
     // Searches that end before what is needed.

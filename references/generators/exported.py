@@ -33,7 +33,8 @@ def files(folder):
 
 
 def network(folder):
-    """Particles, bonds (stiffness times weight), clamped particles, forces {particle: (x, y, z)} and run."""
+    """Particles, bonds (stiffness times weight), supports {particle: {component: value}}, those of them that are clamped,
+    forces {particle: (x, y, z)} and run."""
     folder = Path(folder)
     run = tomllib.loads((folder / "run.toml").read_text(encoding="utf-8"))
     particles = [SimpleNamespace(**row, at=(row["x"], row["y"], row["z"])) for row in table(folder / "particles.csv")]
@@ -42,29 +43,32 @@ def network(folder):
         i, j, weight = int(row["i"]), int(row["j"]), row["weight"]
         length = sum((a - b) ** 2 for a, b in zip(particles[i].at, particles[j].at)) ** 0.5
         stiffness = {k: weight * row[k] for k in ("kn", "ks", "kb", "kt")}
-        bonds.append(SimpleNamespace(i=i, j=j, length=length, **stiffness))
+        bonds.append(SimpleNamespace(i=i, j=j, length=length, radius=row["radius_m"], **stiffness))
     plane = run["space"] == "plane"
+    held = supports(table(folder / "supports.csv"))
     return SimpleNamespace(
         particles=particles,
         bonds=bonds,
-        clamped=clamped(table(folder / "supports.csv"), 3 if plane else 6),
+        held=held,
+        clamped=[p for p, parts in held.items() if len(parts) == (3 if plane else 6) and not any(parts.values())],
         forces=forces(table(folder / "loads.csv")),
         plane=plane,
         run=run,
     )
 
 
-def clamped(rows, components):
-    """Particles of which nothing moves; other supports are not known here."""
+def supports(rows):
+    """Supported particles, ascending, each with {component: prescribed value}."""
     held = {}
     for row in rows:
-        if row["value"] != 0.0:
-            sys.exit(f"supports.csv: particle {int(row['particle'])} is moved; only clamped particles are known here")
-        held.setdefault(int(row["particle"]), set()).add(row["component"])
-    for particle, which in held.items():
-        if len(which) != components:
-            sys.exit(f"supports.csv: particle {particle} is held in part; only clamped particles are known here")
-    return sorted(held)
+        held.setdefault(int(row["particle"]), {})[row["component"]] = row["value"]
+    return dict(sorted(held.items()))
+
+
+def only_clamped(net):
+    """For codes that hold a particle whole or not at all."""
+    for particle in net.held.keys() - set(net.clamped):
+        sys.exit(f"supports.csv: particle {particle} is held in part, or moved; only clamped particles are known here")
 
 
 def forces(rows):
@@ -99,6 +103,31 @@ def kept(row, plane):
     return (row[0], row[1], row[5]) if plane else tuple(row)
 
 
+def load_share(run):
+    """Share of the load that a code is given: a small one keeps a comparison with linear bonds free of second order."""
+    return run.get("load_share", 1.0)
+
+
+def scaled(rows, run, given=0):
+    """Answers to that share as answers to the whole load; the first columns are no answer but given."""
+    return [(*row[:given], *(value / load_share(run) for value in row[given:])) for row in rows]
+
+
+def how_scaled(run):
+    """Says so."""
+    share = load_share(run)
+    return "" if share == 1.0 else f"answers to {share:g} of the load, scaled to all of it; "
+
+
+def half_difference(ahead, behind, given=0):
+    """Half the difference of the answers to a load and to its opposite, in which nothing of second order is left; the
+    first columns are no answer but given."""
+    return [(*p[:given], *(0.5 * (a - b) for a, b in zip(p[given:], q[given:]))) for p, q in zip(ahead, behind)]
+
+
+BOTH_WAYS = "half the difference of the answers to the load and to its opposite, so that nothing of second order is left"
+
+
 def rotation_vector(w, x, y, z):
     """Rotation vector of a unit quaternion, by its vector part: small angles keep their digits."""
     size = math.sqrt(x * x + y * y + z * z)
@@ -124,10 +153,10 @@ def memory_mb():
     return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
 
 
-def report(out, seconds, memory, rows):
-    """What a race needs: time and memory in one file, where everything ended in the other."""
+def report(out, seconds, memory, rows, version):
+    """What a race needs: time, memory and who ran in one file, where everything ended in the other."""
     out = Path(out)
     out.mkdir(parents=True, exist_ok=True)
-    (out / "time.toml").write_text(f"seconds = {seconds!r}\nmemory_mb = {memory!r}\n")
+    (out / "time.toml").write_text(f"seconds = {seconds!r}\nmemory_mb = {memory!r}\nversion = {version}\n")
     lines = [",".join(map(repr, row)) for row in rows]
     (out / "final.csv").write_text("\n".join(["ux,uy,uz", *lines]) + "\n")

@@ -54,6 +54,16 @@ pub fn from_folder(folder: &Path) -> Result<Vec<Reference>> {
     Ok(references)
 }
 
+/// One pair of files in such a folder; `None` if neither file is there.
+///
+/// # Errors
+/// A file that cannot be read, or one without the other.
+pub fn in_folder(folder: &Path, case: &str, source: &str) -> Result<Option<Reference>> {
+    let stem = folder.join(case).join(source);
+    let there = ["csv", "toml"].iter().any(|extension| stem.with_extension(extension).is_file());
+    there.then(|| read(folder, &folder.join(case), &stem)).transpose()
+}
+
 fn read(folder: &Path, case: &Path, stem: &Path) -> Result<Reference> {
     let (csv, toml) = (stem.with_extension("csv"), stem.with_extension("toml"));
     for (missing, present) in [(&csv, &toml), (&toml, &csv)] {

@@ -16,7 +16,7 @@ mod reference;
 mod table;
 mod unit;
 
-pub use catalogue::{all, find, from_folder};
+pub use catalogue::{all, find, from_folder, in_folder};
 pub use dataset::Dataset;
 pub use hash::Sha256;
 pub use problem::{Problem, Result};

@@ -28,6 +28,8 @@ pub enum Kind {
     Experiment,
     /// Taken from a publication, which the source cites.
     Published,
+    /// Running times of several codes, Seam among them: no reference for any answer.
+    Timing,
     /// Restated from notes: computed by prototypes that are neither published nor kept.
     Prototype,
 }

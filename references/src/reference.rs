@@ -4,7 +4,7 @@ use crate::dataset::Dataset;
 use crate::hash::Sha256;
 use crate::problem::{Problem, Result};
 use crate::provenance::Provenance;
-use crate::table;
+use crate::table::{self, Table};
 use std::borrow::Cow;
 
 /// Two files that have been found but not checked. [`Reference::open`] gives the numbers.
@@ -63,8 +63,7 @@ impl Reference {
                 command: provenance.command,
             });
         }
-        let names: Vec<&str> = provenance.columns.keys().map(String::as_str).collect();
-        let numbers = table::parse(&self.csv_file, &self.csv, &names)?;
-        Ok(Dataset { file: self.csv_file.clone(), provenance, numbers })
+        let Table { numbers, names } = table::parse(&self.csv_file, &self.csv, &provenance.columns)?;
+        Ok(Dataset { file: self.csv_file.clone(), provenance, numbers, names })
     }
 }

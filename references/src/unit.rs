@@ -5,7 +5,10 @@ use serde::Deserialize;
 /// Base and derived units that occur, `1` for a pure number; `kg` is the one with a prefix.
 const SYMBOLS: [&str; 10] = ["1", "m", "kg", "s", "N", "Pa", "J", "W", "rad", "Hz"];
 
-/// An SI unit such as `1`, `m`, `N m`, `m/s`, `kg/m^3`.
+/// The unit of a column that holds names and no numbers.
+const NAME: &str = "name";
+
+/// An SI unit such as `1`, `m`, `N m`, `m/s`, `kg/m^3`; or `name` for a column of names.
 #[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
 #[serde(try_from = "String")]
 pub struct Unit(String);
@@ -14,6 +17,11 @@ impl Unit {
     /// As written.
     pub fn as_str(&self) -> &str {
         &self.0
+    }
+
+    /// Whether the column holds names and no numbers.
+    pub fn is_name(&self) -> bool {
+        self.0 == NAME
     }
 }
 
@@ -25,7 +33,7 @@ impl TryFrom<String> for Unit {
             let (symbol, power) = factor.split_once('^').unwrap_or((factor, "1"));
             SYMBOLS.contains(&symbol) && power.parse::<u8>().is_ok_and(|p| p > 0)
         };
-        if text.split([' ', '/']).all(is_factor) {
+        if text == NAME || text.split([' ', '/']).all(is_factor) {
             Ok(Self(text))
         } else {
             Err(format!(
@@ -42,10 +50,10 @@ mod tests {
 
     #[test]
     fn only_si_units_without_prefixes_are_units() {
-        for good in ["1", "m", "rad", "Pa", "N m", "m/s", "kg/m^3"] {
+        for good in ["1", "m", "rad", "Pa", "N m", "m/s", "kg/m^3", "name"] {
             assert!(Unit::try_from(good.to_owned()).is_ok(), "{good}");
         }
-        for bad in ["", "mm", "MPa", "m^", "m^0", "m//s", "metres"] {
+        for bad in ["", "mm", "MPa", "m^", "m^0", "m//s", "metres", "name/s"] {
             assert!(Unit::try_from(bad.to_owned()).is_err(), "{bad}");
         }
     }

@@ -1,7 +1,7 @@
 //! What a reference must not get away with.
 
 use proptest::prelude::*;
-use seam_references::{Problem, Reference, Sha256, all, find, from_folder, verify};
+use seam_references::{Kind, Problem, Reference, Sha256, all, find, from_folder, verify};
 use std::borrow::Cow;
 use std::fs;
 
@@ -251,4 +251,32 @@ fn a_difference_is_relative_to_its_column() {
     let off = of("x,u\n0.0,5e-4\n1.0,-2.5e-3\n").difference(&data).unwrap();
     assert!((off - 0.2).abs() < 1e-15, "{off}");
     assert_eq!(of("x,u\n0.0,0\n").difference(&data), None);
+}
+
+/// A reference of another code was made by that code, by way of a generator of its own.
+#[test]
+fn nothing_that_seam_produced_counts_as_another_code() {
+    for reference in all() {
+        let p = reference.open().unwrap().provenance;
+        let (name, folder) = match p.kind.get_ref() {
+            Kind::Yade => ("YADE", "yade"),
+            Kind::Lammps => ("LAMMPS", "lammps"),
+            Kind::Calculix => ("CalculiX", "calculix"),
+            _ => continue,
+        };
+        let id = reference.id();
+        assert!(p.code.contains(name) && !p.code.contains("Seam"), "{id}: {}", p.code);
+        assert!(p.command.contains(folder), "{id}: {}", p.command);
+    }
+}
+
+#[test]
+fn a_column_of_names_holds_words_and_no_numbers() {
+    let csv = "x,u\n0.0,left\n1.0,right\n";
+    let toml = provenance(csv).replace("u = { unit = \"m\"", "u = { unit = \"name\"");
+    let data = reference(csv, toml).open().unwrap();
+    assert_eq!(data.words("u").unwrap(), ["left", "right"]);
+    assert_eq!(data.rows(), 2);
+    assert!(matches!(data.column("u", "name"), Err(Problem::NoColumn { .. })));
+    assert!(matches!(data.words("x"), Err(Problem::NoColumn { .. })));
 }

@@ -17,6 +17,7 @@ pub fn judge(cases: &[CaseResult], provenance: Provenance, recorded: &Recorded) 
         schema: SCHEMA.to_owned(),
         provenance,
         cases: cases.iter().map(|case| judge_case(case, recorded)).collect(),
+        race: None,
     }
 }
 
@@ -84,6 +85,7 @@ fn judge_quantity(o: Observation, last: Option<f64>) -> QuantityResult {
         u_ref: finite(o.u_ref),
         accepted: o.accepted.map(|ends| ends.map(finite)),
         why: o.why,
+        agreement: o.agreement,
         expected_failure: None,
     }
 }

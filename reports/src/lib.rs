@@ -24,6 +24,7 @@ pub mod loosened;
 pub mod margins;
 pub mod markdown;
 pub mod plots;
+pub mod race;
 pub mod record;
 pub mod results;
 pub mod schema;

@@ -8,10 +8,11 @@ use crate::cost::CostJudgement;
 use crate::growth::TimedGrowth;
 use crate::loosened::Loosened;
 use crate::margins::MarginResult;
+use crate::race::Race;
 use crate::record::{RecordState, RecordedClaim};
 use crate::verdict::{ClaimVerdict, Verdict};
 use schemars::JsonSchema;
-use seam_cases::result::{EffectUse, ReferenceKind};
+use seam_cases::result::{Agreement, EffectUse, ReferenceKind};
 use seam_solver::work::Work;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -32,6 +33,9 @@ pub struct Results {
     pub provenance: Provenance,
     /// The cases, in the order they were given.
     pub cases: Vec<CaseJudgement>,
+    /// Several codes side by side, where that was measured or is recorded.
+    #[serde(default)]
+    pub race: Option<Race>,
 }
 
 /// What produced the results.
@@ -151,6 +155,9 @@ pub struct QuantityResult {
     pub regression: Option<f64>,
     /// The verdict; `null` where nothing is promised.
     pub verdict: Option<Verdict>,
+    /// What was compared with another code, where that is what it is.
+    #[serde(default)]
+    pub agreement: Option<Agreement>,
     /// Why it is known to fail, if it is.
     #[serde(default)]
     pub expected_failure: Option<String>,

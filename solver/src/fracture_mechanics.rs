@@ -1,6 +1,7 @@
 //! Linear elastic fracture mechanics in closed form, to compare cracks and notches with.
 
 use crate::error::{Error, Result};
+use crate::fem::elasticity::{Elasticity, Hypothesis};
 use std::f64::consts::PI;
 
 /// A crack of relative depth a/W, or an angle, outside the range of a formula.
@@ -66,6 +67,34 @@ pub fn williams_exponent(angle: f64) -> Result<f64> {
         if f(middle) > 0.0 { low = middle } else { high = middle }
     }
     Ok(0.5 * (low + high))
+}
+
+/// Modulus `E'` in `J = K²/E'`, in Pa: E in plane stress, `E/(1−ν²)` in plane strain and inside a solid (Irwin 1957).
+pub fn plane_modulus(elasticity: &Elasticity, hypothesis: Hypothesis) -> f64 {
+    match hypothesis {
+        Hypothesis::PlaneStress { .. } => elasticity.young_pa,
+        _ => elasticity.young_pa / (1.0 - elasticity.poisson * elasticity.poisson),
+    }
+}
+
+/// Displacement at a crack tip, along the crack and across it (m), at the distance r (m) and the angle θ (rad) from the line ahead, for
+/// `K_I` (Pa√m): the singular term of Williams (1957), *J. Appl. Mech.* 24, 109–114.
+///
+/// `u = K/2μ √(r/2π) [cos θ/2 (κ − 1 + 2 sin² θ/2), sin θ/2 (κ + 1 − 2 cos² θ/2)]`, κ = (3−ν)/(1+ν) in plane stress, 3 − 4ν in plane strain.
+pub fn mode_one_displacement(
+    intensity: f64,
+    elasticity: &Elasticity,
+    hypothesis: Hypothesis,
+    [r, theta]: [f64; 2],
+) -> [f64; 2] {
+    let nu = elasticity.poisson;
+    let kappa = match hypothesis {
+        Hypothesis::PlaneStress { .. } => (3.0 - nu) / (1.0 + nu),
+        _ => 3.0 - 4.0 * nu,
+    };
+    let (sin, cos) = (0.5 * theta).sin_cos();
+    let factor = 0.5 * intensity / elasticity.shear_pa() * (r / (2.0 * PI)).sqrt();
+    [factor * cos * (kappa - 1.0 + 2.0 * sin * sin), factor * sin * (kappa + 1.0 - 2.0 * cos * cos)]
 }
 
 /// A power law `y = c xᵖ`.

@@ -34,7 +34,8 @@ pub fn judge_into(
     recorded: &Recorded,
     folder: &Path,
 ) -> Result<Results> {
-    let judged = results::judged(cases, references, recorded);
+    let mut judged = results::judged(cases, references, recorded);
+    judged.race = results::race(folder)?;
     judged.write(&folder.join("results.json"))?;
     junit::write(&judged, &folder.join("junit.xml"))?;
     markdown::write(&judged, &folder.join("summary.md"))?;

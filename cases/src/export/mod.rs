@@ -12,7 +12,9 @@ pub mod race;
 use crate::error::{Error, Fault, Result};
 use crate::file::SceneFile;
 use crate::model::build;
-use crate::procedures::bond_for_bond;
+use crate::procedures::{bond_for_bond, breaking_bonds};
+use crate::result::ReferenceKind;
+use crate::study::variants as variants_of;
 use seam_references::Sha256;
 use seam_solver::model::{Model, Part, PointValue};
 use std::collections::BTreeMap;
@@ -33,6 +35,34 @@ pub enum Code {
 impl Code {
     /// All of them.
     pub const ALL: [Code; 3] = [Code::Yade, Code::Lammps, Code::Calculix];
+
+    /// The code that references of a kind come from; `None` where there is none.
+    pub const fn of(kind: ReferenceKind) -> Option<Code> {
+        match kind {
+            ReferenceKind::Yade => Some(Code::Yade),
+            ReferenceKind::Lammps => Some(Code::Lammps),
+            ReferenceKind::Calculix => Some(Code::Calculix),
+            _ => None,
+        }
+    }
+
+    /// The kind of references that it makes.
+    pub const fn kind(self) -> ReferenceKind {
+        match self {
+            Code::Yade => ReferenceKind::Yade,
+            Code::Lammps => ReferenceKind::Lammps,
+            Code::Calculix => ReferenceKind::Calculix,
+        }
+    }
+
+    /// Name as it is written.
+    pub const fn title(self) -> &'static str {
+        match self {
+            Code::Yade => "YADE",
+            Code::Lammps => "LAMMPS",
+            Code::Calculix => "CalculiX",
+        }
+    }
 
     /// Name, as in `references/generators`.
     pub const fn name(self) -> &'static str {
@@ -87,19 +117,50 @@ impl Export {
     }
 }
 
-/// Whether a case has networks that other codes answer bond for bond.
-pub fn has_networks(file: &SceneFile) -> bool {
-    bond_for_bond::answers(&file.scene.procedure)
+/// Whether a case has networks that a code answers: those of its procedure, or peers.
+pub fn has_networks(file: &SceneFile, code: Code) -> bool {
+    let procedure = &file.scene.procedure;
+    let answers = match code {
+        Code::Yade => bond_for_bond::answers(procedure) || breaking_bonds::answers(procedure),
+        Code::Lammps => bond_for_bond::answers(procedure),
+        Code::Calculix => return false,
+    };
+    answers || peers(file, code).next().is_some()
 }
 
-/// What a case gives a code: its networks, or the one body of its scene.
+/// Peers of a scene that a code was given.
+fn peers(file: &SceneFile, code: Code) -> impl Iterator<Item = &String> {
+    file.scene.peers.iter().filter(move |(_, peer)| peer.code == code.kind()).map(|(name, _)| name)
+}
+
+/// What a code is given for a peer of a scene.
+///
+/// # Errors
+/// Variants that are not one body of particles, motions that no generator knows, what the solver refuses.
+pub fn of_peer(file: &SceneFile, name: &str, code: Code) -> Result<Export> {
+    let variants = &file.scene.peers[name].variants;
+    let variant = file.with(&variants_of(file, variants))?;
+    let model = build(&variant)?.model;
+    let [Part::Discrete { network, .. }] = &model.parts[..] else {
+        let mend = "name variants that leave one body of particles";
+        let key = format!("peers.{name}.variants");
+        return Err(file.error(Fault::new(key, "its scene is not one body of particles", mend)));
+    };
+    let files = network::of_peer(&variant, network, &model)?;
+    Ok(Export { case: file.scene.id.clone(), name: name.to_owned(), code, files })
+}
+
+/// What a case gives a code: its networks, the one body of its scene, or its peers.
 ///
 /// # Errors
 /// A case without bodies, with several or with one of the other kind; what the solver refuses.
 pub fn of(file: &SceneFile, code: Code) -> Result<Vec<Export>> {
-    if has_networks(file) && code != Code::Calculix {
+    if bond_for_bond::answers(&file.scene.procedure) && code != Code::Calculix {
         let tasks = bond_for_bond::tasks(file, code)?;
         return tasks.iter().map(|task| network::of_task(file, code, task)).collect();
+    }
+    if breaking_bonds::answers(&file.scene.procedure) && code == Code::Yade {
+        return Ok(vec![network::of_specimen(file, &breaking_bonds::specimen(file)?)?]);
     }
     let model = build(file)?.model;
     let wanted = if code == Code::Calculix { "finite elements" } else { "particles" };
@@ -107,6 +168,9 @@ pub fn of(file: &SceneFile, code: Code) -> Result<Vec<Export>> {
         ([Part::Continuum(body)], Code::Calculix) => mesh::files(body, &model),
         ([Part::Discrete { network, .. }], Code::Yade | Code::Lammps) => {
             network::of_scene(file, network, &model)?
+        }
+        _ if has_networks(file, code) => {
+            return peers(file, code).map(|name| of_peer(file, name, code)).collect();
         }
         (parts, _) => {
             let bodies: Vec<&str> = parts.iter().map(Part::name).collect();

@@ -74,6 +74,15 @@ impl<'a> Field<'a> {
             .or_else(|| self.parts.iter().find_map(|p| p.average(self.space, x)))
     }
 
+    /// The particles whose displacements are read at `x`, ascending, of the first part that has any there.
+    pub fn particles_read_at(&self, x: Vec3) -> Vec<usize> {
+        let of = |p: &PartField| match p.way {
+            Way::Particles { spacing } => mls::neighbourhood(self.space, p.part.positions(), spacing, x),
+            Way::Elements { .. } => Vec::new(),
+        };
+        self.parts.iter().map(of).find(|near| !near.is_empty()).unwrap_or_default()
+    }
+
     /// Stress at `x`, in Pa; `None` outside of all finite elements.
     ///
     /// # Errors

@@ -37,15 +37,21 @@ fn terms(space: Space, d: Vec3) -> Vec<f64> {
 
 /// Value at `x` of the field with `values` at `positions`; `None` if the particles do not determine it.
 pub fn value(space: Space, positions: &[Vec3], values: &[Vec3], spacing: f64, x: Vec3) -> Option<Vec3> {
-    let mut radius = RADIUS * spacing;
-    for _ in 0..6 {
-        let near: Vec<usize> = (0..positions.len()).filter(|&i| (positions[i] - x).norm() < radius).collect();
-        if let Some(value) = fit(space, positions, values, &near, radius, x) {
-            return Some(value);
-        }
-        radius *= WIDER;
-    }
-    None
+    let reach = (0..6).map(|k| RADIUS * spacing * WIDER.powi(k));
+    reach.filter_map(|radius| fit(space, positions, values, &within(positions, radius, x), radius, x)).next()
+}
+
+/// The particles whose values count at `x`, ascending; empty if they do not determine a value.
+pub fn neighbourhood(space: Space, positions: &[Vec3], spacing: f64, x: Vec3) -> Vec<usize> {
+    let still = vec![Vec3::zeros(); positions.len()];
+    let near = (0..6).map(|k| RADIUS * spacing * WIDER.powi(k));
+    let near = near.map(|radius| (radius, within(positions, radius, x)));
+    let mut enough = near.filter(|(radius, near)| fit(space, positions, &still, near, *radius, x).is_some());
+    enough.next().map(|(_, near)| near).unwrap_or_default()
+}
+
+fn within(positions: &[Vec3], radius: f64, x: Vec3) -> Vec<usize> {
+    (0..positions.len()).filter(|&i| (positions[i] - x).norm() < radius).collect()
 }
 
 fn fit(

@@ -6,7 +6,7 @@ use crate::error::Result;
 use crate::export::Code;
 use crate::file::SceneFile;
 use crate::observe::curve::nan_max;
-use crate::result::{Observation, ReferenceKind};
+use crate::result::{Agreement, Observation};
 use crate::scene::Tier;
 use seam_references::Dataset;
 use seam_solver::dem::bond::BondMaterial;
@@ -37,6 +37,16 @@ pub(crate) enum Motion {
     Equilibrium,
     /// How one particle moves, undamped, under a load that rises from zero.
     History(History),
+}
+
+impl Motion {
+    /// In a word.
+    fn name(&self) -> &'static str {
+        match self {
+            Motion::Equilibrium => "at rest",
+            Motion::History(_) => "in motion",
+        }
+    }
 }
 
 /// A motion in time.
@@ -168,16 +178,24 @@ pub(super) fn observation(
     data: &Dataset,
     why: &str,
 ) -> Observation {
-    let (kind, title) = match code {
-        Code::Yade => (ReferenceKind::Yade, "YADE"),
-        Code::Lammps => (ReferenceKind::Lammps, "LAMMPS"),
-        Code::Calculix => (ReferenceKind::Calculix, "CalculiX"),
-    };
+    let title = code.title();
     let id = format!("{}-{}-{what}", task.name, code.name());
     let label = format!("{} network, largest difference of a {what} from {title}", task.name);
     let p = &data.provenance;
     let source = format!("{title} {}, run on {} ({})", p.version, p.date, p.machine);
-    Observation { kind, ..rounding(&id, &label, value, limit, why, &source) }
+    let agreement = Agreement {
+        code: title.to_owned(),
+        version: p.version.clone(),
+        date: p.date.to_string(),
+        model: format!("{} network, {}", task.name, task.motion.name()),
+        compared: what.to_owned(),
+        same_model: true,
+    };
+    Observation {
+        kind: code.kind(),
+        agreement: Some(agreement),
+        ..rounding(&id, &label, value, limit, why, &source)
+    }
 }
 
 #[cfg(test)]

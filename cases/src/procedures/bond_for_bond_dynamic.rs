@@ -61,6 +61,7 @@ fn compare(
         apart.id = format!("{}-small", task.name);
         apart.label = format!("{}, with small rotations: must differ", apart.label);
         apart.accepted = Some([0.02, 1.0]);
+        apart.agreement = None;
         result.quantities.push(apart);
     }
     for (what, own, theirs) in [("displacement", u, u_theirs), ("rotation", r, r_theirs)] {

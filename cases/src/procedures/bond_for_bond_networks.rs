@@ -66,6 +66,20 @@ impl Kit {
         self.neighbours(Space::Plane, (0..columns * rows).map(site).collect(), 1.1)
     }
 
+    /// The same, each particle moved by up to half of `share` spacings along each axis, so that no two bonds are alike.
+    ///
+    /// Moves follow the sequence `frac(k/p), frac(k/p²)` with the plastic number p (Roberts 2018): no seed, no two near each other.
+    pub fn triangular_shaken(&self, columns: usize, rows: usize, share: f64) -> Network {
+        const PLASTIC: f64 = 1.324_717_957_244_746;
+        let mut network = self.triangular(columns, rows);
+        let shift = |k: usize, ratio: f64| share * self.spacing * ((k as f64 / ratio).fract() - 0.5);
+        for (k, x) in network.particles.position.iter_mut().enumerate() {
+            x.x += shift(k, PLASTIC);
+            x.y += shift(k, PLASTIC * PLASTIC);
+        }
+        self.bond(Space::Plane, network.particles.position, network.bonds.ends, 0.5 * self.spacing)
+    }
+
     /// Hexagonal close packing: layers A, B, A … along z.
     pub fn hexagonal(&self, n: [usize; 3]) -> Network {
         let site = |s: usize| {
@@ -124,6 +138,27 @@ impl Kit {
             bonds.weight.push(1.0);
         }
         Network { space, particles, bonds, faces: BTreeMap::new() }
+    }
+
+    /// Pulled along x: both ends clamped, the right one moved by one metre at load factor one.
+    pub fn pulled(&self, network: Network) -> Model {
+        let depth = END * self.spacing;
+        let x = |p: usize| network.particles.position[p].x;
+        let all = || 0..network.particles.len();
+        let right = all().map(x).fold(f64::NEG_INFINITY, f64::max);
+        let (space, per) = (network.space, network.space.dofs_per_particle());
+        let grip = |p: usize| match x(p) {
+            x if x < depth => Some(0.0),
+            x if x > right - depth => Some(1.0),
+            _ => None,
+        };
+        let components = |(point, pull): (usize, f64)| {
+            let value = move |component| if component == 0 { pull } else { 0.0 };
+            (0..per).map(move |component| PointValue { part: 0, point, component, value: value(component) })
+        };
+        let supports = all().filter_map(|p| Some((p, grip(p)?))).flat_map(components).collect();
+        let body = Part::Discrete { name: "specimen".to_owned(), network };
+        Model { space, parts: vec![body], ties: Vec::new(), supports, loads: Vec::new() }
     }
 
     /// The cantilever: left end clamped, `force` (N) spread evenly over the right end.

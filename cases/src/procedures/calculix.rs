@@ -2,7 +2,7 @@
 
 use super::{Setting, rounding};
 use crate::error::Result;
-use crate::result::{CaseResult, ReferenceKind};
+use crate::result::{Agreement, CaseResult, ReferenceKind};
 use seam_references::Dataset;
 use seam_solver::fem::continuum::Continuum;
 use seam_solver::fem::elasticity::{Elasticity, Hypothesis};
@@ -44,6 +44,14 @@ pub fn run(setting: &Setting, result: &mut CaseResult) -> Result<()> {
         let mut same = rounding(id, label, plain, setting.number("tolerance")?, why, &source);
         same.kind = ReferenceKind::Calculix;
         let mut apart = same.clone();
+        same.agreement = Some(Agreement {
+            code: "CalculiX".to_owned(),
+            version: data.provenance.version.clone(),
+            date: data.provenance.date.to_string(),
+            model: label.replace(" against ", ", "),
+            compared: "displacement".to_owned(),
+            same_model: true,
+        });
         apart.id = format!("{id}-incompatible");
         apart.label = format!("{label}, but with incompatible modes: must differ");
         apart.value = other;

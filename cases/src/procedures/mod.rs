@@ -4,14 +4,17 @@
 
 mod bar_impact;
 mod bar_sudden_load;
+mod bend;
 pub(crate) mod bond_for_bond;
 mod bond_for_bond_dynamic;
 mod bond_for_bond_networks;
 mod bond_for_bond_static;
 mod bond_matrix;
+pub(crate) mod breaking_bonds;
 mod calculix;
 mod cantilever_eigenfrequencies;
 mod compared;
+mod cracked_specimens;
 mod elastic_bar;
 mod elastica;
 mod hard;
@@ -20,15 +23,19 @@ mod interface_reflection;
 mod lattice_constants;
 mod long_run;
 mod manufactured;
+mod notch_singularity;
+mod notched_concrete;
 mod plane_reflection;
 mod rigid_rotation;
 mod roll_up;
 mod scattering;
 mod slender;
+mod slit_lattice;
 mod specimen;
 mod straight;
 mod subcycling;
 mod time_step_orders;
+mod toughness;
 
 use crate::checkpoint::Checkpoints;
 use crate::error::{Error, Fault, Result};
@@ -50,6 +57,7 @@ const REGISTRY: &[(&str, Procedure)] = &[
     (bond_for_bond::DYNAMIC, bond_for_bond_dynamic::run),
     (bond_for_bond::STATIC, bond_for_bond_static::run),
     ("bond-matrix", bond_matrix::run),
+    ("breaking-bonds", breaking_bonds::run),
     ("bond-radius", hard::bond_radius::run),
     ("calculix", calculix::run),
     ("cantilever-eigenfrequencies", cantilever_eigenfrequencies::run),
@@ -65,6 +73,8 @@ const REGISTRY: &[(&str, Procedure)] = &[
     ("lattice-constants", lattice_constants::run),
     ("long-run", long_run::run),
     ("manufactured", manufactured::run),
+    ("notch-singularity", notch_singularity::run),
+    ("notched-concrete", notched_concrete::run),
     ("reproducible", hard::reproducible::run),
     ("rigid-rotation", rigid_rotation::run),
     ("roll-up", roll_up::run),
@@ -73,6 +83,7 @@ const REGISTRY: &[(&str, Procedure)] = &[
     ("stability-maps", hard::maps::run),
     ("subcycling", subcycling::run),
     ("time-step-orders", time_step_orders::run),
+    ("toughness", toughness::run),
     ("transfer-at-peak", hard::transfer_at_peak::run),
 ];
 

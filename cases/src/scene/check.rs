@@ -4,8 +4,8 @@ use super::body::{Body, Method};
 use super::de::{Arrangement, Calibrate, De};
 use super::number::Number;
 use super::{
-    Scene, check_connection, check_dynamics, check_failure, check_notched_beam, check_probe, check_size,
-    check_study, check_switch,
+    Scene, check_connection, check_dynamics, check_failure, check_notched_beam, check_peer, check_probe,
+    check_size, check_study, check_switch,
 };
 use crate::error::Fault;
 use crate::expression::{RESERVED, Values};
@@ -38,6 +38,7 @@ pub fn check(scene: &Scene, values: &Values) -> Checked {
     for (name, probe) in &scene.probes {
         check_probe::check(scene, name, probe, values)?;
     }
+    check_peer::check(scene)?;
     check_study::check(scene, values)?;
     check_size::check(scene, values)
 }

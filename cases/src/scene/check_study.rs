@@ -1,6 +1,7 @@
 //! Checks of quantities and studies: names that lead nowhere, studies that compare nothing.
 
 use super::check::{Checked, known};
+use super::check_peer;
 use super::check_probe::{is_history, zone};
 use super::probe::Read;
 use super::quantity::{Accept, Norm, Quantity};
@@ -79,11 +80,7 @@ pub fn check(scene: &Scene, values: &Values) -> Checked {
         let key = format!("ablations.{name}");
         if !effects::NAMES.contains(&ablation.effect.as_str()) {
             let message = format!("there is no effect '{}'", ablation.effect);
-            return Err(Fault::new(
-                format!("{key}.effect"),
-                message,
-                hint(&ablation.effect, effects::NAMES.into_iter()),
-            ));
+            return Err(Fault::new(format!("{key}.effect"), message, hint(&ablation.effect, effects::NAMES)));
         }
         variants(scene, &ablation.variants, &format!("{key}.variants"))?;
         if !(ablation.tolerance > 0.0 && ablation.tolerance < 1.0) {
@@ -98,7 +95,8 @@ pub fn check(scene: &Scene, values: &Values) -> Checked {
     Ok(())
 }
 
-fn variants(scene: &Scene, names: &[String], key: &str) -> Checked {
+/// Names of variants that must be there.
+pub fn variants(scene: &Scene, names: &[String], key: &str) -> Checked {
     names
         .iter()
         .enumerate()
@@ -143,7 +141,11 @@ fn check_quantity(scene: &Scene, name: &str, quantity: &Quantity, values: &Value
     variants(scene, &quantity.variants, &format!("{key}.variants"))?;
     check_norm(scene, quantity, &key)?;
     let curve = quantity.norm.is_some();
-    let given = quantity.reference.as_ref().is_some_and(|r| r.value.is_some() || r.variants.is_some());
+    let given = quantity
+        .reference
+        .as_ref()
+        .is_some_and(|r| r.value.is_some() || r.variants.is_some() || r.peer.is_some());
+    check_peer::check_reference(scene, quantity, &format!("{key}.reference"))?;
     check_own_run(scene, quantity, &format!("{key}.reference"))?;
     if scene.reference.is_none() && !given && (curve || quantity.reference.is_some()) {
         let mend = "add a [reference] model, or give reference.value";

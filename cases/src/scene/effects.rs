@@ -70,7 +70,7 @@ impl Scene {
                     AUTO => "\"auto\" stands alone or not at all".to_owned(),
                     _ => format!("there is no effect '{name}'"),
                 };
-                return Err(Fault::new(format!("effects[{i}]"), message, hint(name, NAMES.into_iter())));
+                return Err(Fault::new(format!("effects[{i}]"), message, hint(name, NAMES)));
             }
         }
         let on = |name: &str| self.effects.iter().any(|e| e == name);

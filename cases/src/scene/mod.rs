@@ -9,6 +9,7 @@ mod check_connection;
 mod check_dynamics;
 mod check_failure;
 pub mod check_notched_beam;
+mod check_peer;
 mod check_probe;
 mod check_size;
 mod check_study;
@@ -25,6 +26,7 @@ pub mod material;
 mod none;
 pub mod number;
 pub mod parameter;
+pub mod peer;
 pub mod probe;
 pub mod quantity;
 mod simulated;
@@ -139,6 +141,9 @@ pub struct Scene {
     /// The model that quantities are compared with.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub reference: Option<study::ReferenceModel>,
+    /// What other codes made of it.
+    #[serde(default)]
+    pub peers: BTreeMap<String, peer::Peer>,
     /// Refinement studies.
     #[serde(default)]
     pub convergence: BTreeMap<String, study::Convergence>,

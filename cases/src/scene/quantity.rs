@@ -103,12 +103,15 @@ impl Zone {
 pub struct Reference {
     /// Where it comes from.
     pub kind: ReferenceKind,
-    /// The value; computed by the scene's `[reference]` model if neither this nor `variants` is given.
+    /// The value; computed by the scene's `[reference]` model if neither this nor `variants` nor `peer` is given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub value: Option<Number>,
     /// Read it off the scene itself with these variants: with kind `own-run`, a difference and not an accuracy.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub variants: Option<Vec<String>>,
+    /// Read it off what another code computed: name of a `[peers.NAME]` of the same kind.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub peer: Option<String>,
     /// Author, year, equation.
     pub source: String,
     /// Standard uncertainty, in the unit of the quantity.

@@ -9,6 +9,7 @@ mod evaluate;
 mod family;
 mod growth;
 mod kept;
+mod peer;
 mod picture;
 mod plots;
 mod quantities;
@@ -30,6 +31,7 @@ use reference::Library;
 use seam_solver::model::Model;
 use seam_solver::solve::statics::Solution;
 use serde_json::Value;
+use std::collections::BTreeMap;
 use std::time::Instant;
 
 pub use kept::Kept;
@@ -51,11 +53,12 @@ pub fn run(file: &SceneFile, tier: Tier, checkpoints: &Checkpoints) -> Result<Ru
     let start = Instant::now();
     let tally = Tally::default();
     let library = Library::default();
-    let study = Study { file, tier, tally: &tally, library: &library };
+    let (peers, peer_notes) = peer::all(file)?;
+    let study = Study { file, tier, tally: &tally, library: &library, peers: &peers };
     let solved = evaluate::solve_keeping(file, &tally, checkpoints)?;
     let mut result = head(file, tier);
     result.effects = effects::used(file, &solved);
-    result.notes = [solved.built.notes.clone(), solved.solution.notes.clone()].concat();
+    result.notes = [solved.built.notes.clone(), solved.solution.notes.clone(), peer_notes].concat();
     let convergence = convergence::all(&study)?;
     result.quantities = quantities::all(&study, &solved, &convergence)?;
     result.convergence = convergence.into_values().map(|study| study.result).collect();
@@ -95,6 +98,8 @@ struct Study<'a> {
     tier: Tier,
     tally: &'a Tally,
     library: &'a Library,
+    /// What other codes made of the scene.
+    peers: &'a BTreeMap<String, peer::Answer>,
 }
 
 impl Study<'_> {
@@ -108,7 +113,8 @@ impl Study<'_> {
     }
 }
 
-fn variants(file: &SceneFile, names: &[String]) -> Vec<Override> {
+/// Overrides of some variants of a scene, in order.
+pub fn variants(file: &SceneFile, names: &[String]) -> Vec<Override> {
     let of = |name: &String| file.scene.variants[name].iter();
     names
         .iter()

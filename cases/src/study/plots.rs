@@ -70,6 +70,12 @@ fn plot(study: &Study, solved: &Solved, name: &str, (probe, curve): (&Probe, &Cu
             all.push(series(legend, Role::Model, curve));
         }
     }
+    for answer in study.peers.values() {
+        if let Some((curve, _)) = answer.reference.curves.get(name) {
+            let title = format!("{}, {}", answer.agreement.code, answer.agreement.model);
+            all.push(series(&title, Role::Reference, curve));
+        }
+    }
     if let Some(exact) = probe.exact.first() {
         let key = format!("probes.{name}.exact[0]");
         let mut theory = Curve { axis: curve.axis, x: curve.x.clone(), y: Vec::new() };

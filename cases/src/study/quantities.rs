@@ -6,8 +6,9 @@ use super::evaluate::{self, Solved, distance};
 use super::reference::Reference;
 use crate::error::Result;
 use crate::file::SceneFile;
-use crate::result::{Observation, ReferenceKind};
+use crate::result::{Agreement, Observation, ReferenceKind};
 use crate::scene::number::Number;
+use crate::scene::probe::Read;
 use crate::scene::quantity::{Accept, Norm, Quantity};
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
@@ -17,7 +18,10 @@ use std::sync::Arc;
 pub fn all(study: &Study, solved: &Solved, refined: &BTreeMap<String, Refined>) -> Result<Vec<Observation>> {
     let mut runs: BTreeMap<&[String], (SceneFile, Solved)> = BTreeMap::new();
     let mut all = Vec::new();
-    let now = |q: &Quantity| q.tiers.contains(&study.tier);
+    let peer_of = |q: &Quantity| q.reference.as_ref().and_then(|r| r.peer.clone());
+    let now = |q: &Quantity| {
+        q.tiers.contains(&study.tier) && peer_of(q).is_none_or(|name| study.peers.contains_key(&name))
+    };
     for (name, quantity) in study.file.scene.quantities.iter().filter(|(_, q)| now(q)) {
         let refined = refined.get(name);
         if quantity.variants.is_empty() {
@@ -78,7 +82,7 @@ fn one(
                 value.ok_or_else(|| study.error(format!("quantity '{name}' has no value")))?;
         }
     }
-    if quantity.norm.is_none() || !is_own_run(quantity) {
+    if quantity.norm.is_none() || !is_of_a_run(quantity) {
         compare(root, study, name, quantity, &mut observation)?;
     }
     if let (true, Some(whole)) = (quantity.as_share, observation.reference) {
@@ -86,6 +90,7 @@ fn one(
         (observation.value, observation.unit) = (observation.value / whole, "1".to_owned());
         (observation.reference, observation.u_ref) = (None, 0.0);
     }
+    observation.agreement = agreement(root, quantity);
     if let Some(accept) = &quantity.accept {
         observation.accepted = Some(accepted(study, name, accept, observation.reference)?);
         observation.why = accept.why.clone();
@@ -93,12 +98,30 @@ fn one(
     Ok(observation)
 }
 
-fn is_own_run(quantity: &Quantity) -> bool {
-    quantity.reference.as_ref().is_some_and(|r| r.variants.is_some())
+/// What the table of agreements says of a quantity that is compared with another code.
+fn agreement(root: &Study, quantity: &Quantity) -> Option<Agreement> {
+    let name = quantity.reference.as_ref()?.peer.as_ref()?;
+    let (peer, answer) = (&root.file.scene.peers[name], root.peers.get(name)?);
+    let read = root.file.scene.probes[&quantity.probe].read;
+    let rotation = matches!(read, Read::SecantRotation | Read::SectionRotation);
+    Some(Agreement {
+        compared: if rotation { "rotation" } else { "displacement" }.to_owned(),
+        same_model: peer.variants == quantity.variants && !peer.variants.is_empty(),
+        ..answer.agreement.clone()
+    })
 }
 
-/// The scene's `[reference]` model, or the run that the quantity names.
+/// Whether it is compared with another run, of Seam or of another code: with a norm the distance is the value.
+fn is_of_a_run(quantity: &Quantity) -> bool {
+    quantity.reference.as_ref().is_some_and(|r| r.variants.is_some() || r.peer.is_some())
+}
+
+/// What another code computed, the run that the quantity names, or the scene's `[reference]` model.
 fn reference_of(root: &Study, study: &Study, quantity: &Quantity) -> Result<Arc<Reference>> {
+    let peer = quantity.reference.as_ref().and_then(|r| r.peer.as_ref());
+    if let Some(answer) = peer.and_then(|name| root.peers.get(name)) {
+        return Ok(Arc::clone(&answer.reference));
+    }
     match quantity.reference.as_ref().and_then(|r| Some((r.variants.as_ref()?, &r.source))) {
         Some((names, source)) => {
             root.library.own_run(&root.file.with(&root.variants(names))?, source, root.tally)

@@ -36,6 +36,13 @@ impl Reference {
     }
 }
 
+impl Reference {
+    /// Takes in a number that is known as it is.
+    pub fn scalar(&mut self, probe: &str, value: f64) {
+        self.scalars.insert(probe.to_owned(), Estimate { value, order: None, u: 0.0 });
+    }
+}
+
 type Slot = Arc<OnceLock<std::result::Result<Arc<Reference>, String>>>;
 
 /// References that have been computed: members of a family that differ in the discrete part only share
@@ -155,8 +162,7 @@ fn as_it_is(about: &str, readings: &Readings) -> Reference {
     for (probe, reading) in readings.iter() {
         match reading {
             Reading::Scalar(value) => {
-                let estimate = Estimate { value: *value, order: None, u: 0.0 };
-                reference.scalars.insert(probe.clone(), estimate);
+                reference.scalar(probe, *value);
             }
             Reading::Curve(curve) => {
                 reference.curves.insert(probe.clone(), (curve.clone(), 0.0));

@@ -66,18 +66,21 @@ def cells(divisions):
         yield ring + [node + strides[2] for node in ring] if len(divisions) == 3 else ring
 
 
-def deck(element, nodes, elements, fixed, forces, young, poisson):
+def deck(element, nodes, elements, fixed, forces, young, poisson, thickness=1.0):
     """Input of ccx: linear statics, nodes of `fixed` held, `forces` {node: components}; numbers count from one."""
     line = lambda *fields: ", ".join(map(str, fields))
     dimensions = len(nodes[0])
     out = ["*NODE, NSET=ALL"]
     out += [line(k + 1, *(f"{x:.{PLACES}f}" for x in node)) for k, node in enumerate(nodes)]
     out += [f"*ELEMENT, TYPE={element}, ELSET=BODY"]
-    out += [line(k + 1, *(n + 1 for n in cell)) for k, cell in enumerate(elements)]
+    for k, cell in enumerate(elements):
+        # A line of an input holds at most 16 numbers; one that ends in a comma goes on.
+        numbers = [str(n + 1) for n in cell]
+        out += [line(k + 1, *numbers[:15]) + ("," if numbers[15:] else "")] + ([line(*numbers[15:])] if numbers[15:] else [])
     out += ["*NSET, NSET=FIXED"] + [str(node + 1) for node in fixed]
     out += ["*MATERIAL, NAME=M", "*ELASTIC", line(young, poisson), "*SOLID SECTION, ELSET=BODY, MATERIAL=M"]
-    # The empty line of a plane section is followed by its thickness, 1 m.
-    out += ["1."] if dimensions == 2 else []
+    # A plane section is followed by its thickness.
+    out += [repr(thickness).removesuffix("0")] if dimensions == 2 else []
     out += ["*BOUNDARY", line("FIXED", 1, dimensions), "*STEP", "*STATIC", "*CLOAD"]
     out += [line(node + 1, i + 1, f) for node, force in forces.items() for i, f in enumerate(force) if f != 0.0]
     out += ["*NODE PRINT, NSET=ALL", "U", "*END STEP", ""]

@@ -27,4 +27,4 @@ for row in table(folder / "loads.csv"):
 text = ccx.deck(run["element"], nodes, cells, fixed, forces, run["young_Pa"], run["poisson"])
 displacements, seconds = ccx.run(text, 3)
 memory = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss / 1024
-report(out, seconds, memory, [tuple(map(float, u)) for u in displacements])
+report(out, seconds, memory, [tuple(map(float, u)) for u in displacements], ccx.version())

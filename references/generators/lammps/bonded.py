@@ -6,7 +6,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
-from exported import network, rotation_vector
+from exported import network, only_clamped, rotation_vector
 from lammps import lammps
 
 
@@ -40,6 +40,7 @@ def data(net, types):
 def build(folder, factor="1.0"):
     """The network ready to run; `factor` is the LAMMPS formula by which the forces are multiplied."""
     net = network(folder)
+    only_clamped(net)
     types = kinds(net.bonds)
     reach = 1.5 * max(bond.length for bond in net.bonds)
     lmp = lammps(cmdargs=["-log", "none", "-screen", "none"])

@@ -9,7 +9,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 from bonded import Motion, build, version
-from exported import difference, files, history_columns, kept, network
+from exported import BOTH_WAYS, difference, files, half_difference, history_columns, kept, network
 from reference import machine, write
 
 
@@ -28,14 +28,11 @@ def run(folder, sign):
 
 
 def answer(folder):
-    """For small rotations half the difference of the answers to the load and to its opposite: what is of second order
-    drops out."""
+    """Second-order effects of small rotations drop out; large ones are the question."""
     net, rows, label = run(folder, 1)
     if net.run["rotations"] == "finite":
         return net, rows, label, ""
-    behind = run(folder, -1)[1]
-    rows = [(p[0], *(0.5 * (a - b) for a, b in zip(p[1:], q[1:]))) for p, q in zip(rows, behind)]
-    return net, rows, label, "; half the difference of the answers to the load and to its opposite"
+    return net, half_difference(rows, run(folder, -1)[1], given=1), label, f"; {BOTH_WAYS}"
 
 
 folder, case, name = sys.argv[1:4]

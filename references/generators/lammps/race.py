@@ -10,7 +10,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
-from bonded import build
+from bonded import build, version
 from exported import memory_mb, report, table
 
 folder, out = sys.argv[1:3]
@@ -27,5 +27,5 @@ if lmp.extract_setting("world_rank") == 0:
     ranks = lmp.extract_setting("world_size")
     moved = [tuple(at[3 * k + i] - p.at[i] for i in range(3)) for k, p in enumerate(net.particles)]
     # Ranks share the work alike: the memory of one stands for each.
-    report(out, seconds, ranks * memory_mb(), moved)
+    report(out, seconds, ranks * memory_mb(), moved, version(lmp))
 lmp.close()

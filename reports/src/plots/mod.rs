@@ -13,6 +13,7 @@ pub mod family;
 mod ink;
 pub mod map;
 pub mod picture;
+pub mod race;
 mod shapes;
 pub mod sketch;
 mod ticks;

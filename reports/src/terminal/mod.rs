@@ -4,11 +4,13 @@ mod changes;
 mod differences;
 mod failures;
 mod margins;
+mod race;
 pub(crate) mod studies;
 mod style;
 
 pub use changes::changes;
 pub use differences::differences;
+pub use race::race;
 pub use style::Style;
 
 use crate::format::{self, percent, share, signed_percent};

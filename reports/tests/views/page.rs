@@ -1,9 +1,12 @@
 //! The report page.
 
 use super::fixture;
+use seam_cases::result::Agreement;
 use seam_reports::html::{page, write_report};
 use seam_reports::judge::judge;
+use seam_reports::race::{Lane, Race};
 use seam_reports::record::Recorded;
+use seam_reports::results::Results;
 
 fn the_page() -> String {
     page(&fixture::results(), &fixture::cases()).unwrap()
@@ -25,6 +28,42 @@ fn the_answer_comes_first() {
     ];
     let places: Vec<usize> = order.iter().map(|id| page.find(id).unwrap_or_else(|| panic!("{id}"))).collect();
     assert!(places.is_sorted(), "{places:?}");
+}
+
+/// Sections without data are left out; with data they say which code, and where a race was run.
+#[test]
+fn other_codes_have_sections_of_their_own() {
+    let mut results = fixture::results();
+    let show = |results: &Results| page(results, &fixture::cases()).unwrap();
+    let sections = ["id=\"agreement\"", "id=\"race\""];
+    assert!(sections.iter().all(|id| !show(&results).contains(id)));
+    results.cases[0].quantities[0].agreement = Some(Agreement {
+        code: "YADE".to_owned(),
+        version: "2023.02a".to_owned(),
+        model: "chain network, at rest".to_owned(),
+        compared: "displacement".to_owned(),
+        same_model: true,
+        ..Agreement::default()
+    });
+    let lane = |code: &str, threads: f64, seconds: f64| Lane {
+        what: "network".to_owned(),
+        size: 4000.0,
+        threads,
+        code: code.to_owned(),
+        seconds,
+        rate: [30e6 / seconds, 29e6 / seconds, 31e6 / seconds],
+        times_seam: seconds,
+        times_finite: (threads == 1.0).then_some(seconds / 3.0),
+        ..Lane::default()
+    };
+    let lanes = vec![lane("seam", 1.0, 1.0), lane("seam-finite", 1.0, 3.0), lane("yade", 1.0, 12.0)];
+    results.race = Some(Race { recorded: true, lanes, ..Race::default() });
+    let page = show(&results);
+    assert!(sections.iter().all(|id| page.contains(id)));
+    for part in ["YADE 2023.02a", "chain network, at rest", "Recorded elsewhere", "Seam, finite rotations"] {
+        assert!(page.contains(part), "{part}");
+    }
+    assert!(page.contains("YADE takes 12 times as long as Seam, 4 times as long as with finite rotations."));
 }
 
 #[test]

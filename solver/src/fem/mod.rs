@@ -4,6 +4,7 @@ pub mod assembly;
 pub mod continuum;
 pub mod elasticity;
 pub mod element;
+pub mod energy_release;
 pub mod facets;
 pub mod formulation;
 pub mod gmsh;

@@ -2,7 +2,7 @@
 
 use anyhow::Result;
 use seam_cases::catalogue;
-use seam_cases::export::{Code, Export, of};
+use seam_cases::export::{Code, Export, has_networks, of};
 use std::collections::BTreeMap;
 
 /// Every network of the catalogue that another code is to answer.
@@ -10,8 +10,8 @@ pub fn all() -> Result<BTreeMap<String, Export>> {
     let mut exports = BTreeMap::new();
     for id in catalogue::ids() {
         let file = catalogue::case(id, &[])?;
-        if seam_cases::export::has_networks(&file) {
-            for code in [Code::Yade, Code::Lammps] {
+        for code in [Code::Yade, Code::Lammps] {
+            if has_networks(&file, code) {
                 exports.extend(of(&file, code)?.into_iter().map(|export| (export.reference(), export)));
             }
         }

@@ -14,10 +14,13 @@ pub fn lane(words: &Lane) -> Result<Exit> {
             rayon::ThreadPoolBuilder::new().num_threads(words.threads).build_global()?;
             lane::load(&race::clamped_bar(nodes)?)?
         }
+        Err(_) if words.finite => lane::turn(Path::new(&words.what))?,
         Err(_) => lane::vibrate(Path::new(&words.what), words.threads)?,
     };
     std::fs::create_dir_all(&words.out)?;
-    let time = format!("seconds = {:?}\nmemory_mb = {:?}\n", finish.seconds, memory_mb());
+    let version = env!("CARGO_PKG_VERSION");
+    let time =
+        format!("seconds = {:?}\nmemory_mb = {:?}\nversion = {version}\n", finish.seconds, memory_mb());
     std::fs::write(words.out.join("time.toml"), time)?;
     let mut text = String::from("ux,uy,uz\n");
     for u in &finish.displacement {

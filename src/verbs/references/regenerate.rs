@@ -66,9 +66,7 @@ pub fn regenerate(words: &Regenerate) -> Result<Exit> {
                 let export = &exports[id];
                 let folder = scratch.0.join("input").join(id);
                 export.write(&folder)?;
-                let kind =
-                    if export.files["run.toml"].contains("\"history\"") { "dynamic" } else { "static" };
-                let script = generators.join(code.name()).join(format!("{kind}.py"));
+                let script = generators.join(code.name()).join(script_of(export));
                 let name = id.split_once('/').map_or("", |(_, name)| name);
                 tool.run(&script, &[&folder.display().to_string(), &export.case, name], &to)?;
             }
@@ -88,6 +86,16 @@ pub fn regenerate(words: &Regenerate) -> Result<Exit> {
         eprintln!("nothing was replaced; --accept does that");
     }
     Ok(if same || words.accept { Exit::Pass } else { Exit::Failed })
+}
+
+/// The script that computes what an export asks for.
+fn script_of(export: &Export) -> &'static str {
+    let asks = |motion: &str| export.files["run.toml"].contains(&format!("motion = \"{motion}\""));
+    match () {
+        () if asks("history") => "dynamic.py",
+        () if asks("breaking") => "breaking.py",
+        () => "static.py",
+    }
 }
 
 /// Recipes with the ids of what they make.

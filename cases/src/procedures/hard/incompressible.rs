@@ -58,7 +58,7 @@ pub fn run(setting: &Setting, result: &mut CaseResult) -> Result<()> {
                 [(1.0 - CLOSE) * exact, (1.0 + CLOSE) * exact],
                 [
                     "Two per cent is what the hard case asks of the stated mesh.",
-                    "its own converged answer from three finer meshes",
+                    "its own converged answer, extrapolated from three meshes",
                 ],
             )
         });

@@ -3,7 +3,7 @@
 use super::super::evaluate::Tally;
 use super::super::kept::Kept;
 use super::super::reference::Library;
-use super::super::{Onlooker, Study, digest, head, variants};
+use super::super::{Onlooker, Study, digest, head, peer, variants};
 use super::levels::Resolution;
 use super::measure::{Repeats, measure};
 use super::settings::{Setting, all_elements, generated, packings};
@@ -111,7 +111,9 @@ impl<'a> CostStudy<'a> {
     /// A reference model that fails; points that cannot be kept. A setting that cannot run is a gap.
     pub fn run(&self, around: &Surroundings) -> Result<CaseResult> {
         let (tally, library) = (Tally::default(), Library::default());
-        let study = Study { file: self.file, tier: self.tier, tally: &tally, library: &library };
+        let (peers, _) = peer::all(self.file)?;
+        let study =
+            Study { file: self.file, tier: self.tier, tally: &tally, library: &library, peers: &peers };
         let mut result = head(self.file, self.tier);
         result.command = result.command.replacen("seam run", "seam study cost", 1);
         for diagram in &self.diagrams {

@@ -1,11 +1,13 @@
 //! What the templates show: everything already in words. One file per section that needs words of its own.
 
+mod agreement;
 mod answer;
 mod budget;
 mod case;
 mod claim;
 mod failures;
 mod numbers;
+mod race;
 mod stability;
 mod studies;
 mod switches;
@@ -34,6 +36,8 @@ pub(super) struct Page {
     bias: Vec<Figure>,
     budgets: Vec<budget::BudgetView>,
     costs: Vec<Figure>,
+    agreements: agreement::Agreements,
+    race: Option<race::RaceView>,
     stability: Option<stability::Stability>,
     cost_tables: Vec<studies::CostView>,
     ablations: Vec<studies::AblationView>,
@@ -53,7 +57,9 @@ impl Page {
         let claims = self.claims.iter().filter_map(claim::Claim::figure);
         let budgets = self.budgets.iter().map(|b| &b.figure);
         let maps = self.stability.iter().flat_map(stability::Stability::maps);
-        let totals = self.bias.iter().chain(budgets).chain(&self.costs).chain(&self.second_costs).chain(maps);
+        let race = self.race.iter().flat_map(|race| &race.figures);
+        let totals = self.bias.iter().chain(budgets).chain(&self.costs).chain(&self.second_costs);
+        let totals = totals.chain(maps).chain(race);
         let cases = self.cases.iter().flat_map(|c| {
             let figures = c.sketches.iter().chain(&c.pictures).chain(&c.figures);
             figures.map(|figure| (format!("{}-{}", c.judged.id, slug(&figure.title)), figure))
@@ -98,6 +104,8 @@ pub(super) fn page(results: &Results, cases: &[CaseResult]) -> Page {
         bias: plots::bias::scatter(results).into_iter().collect(),
         budgets: budgets.collect(),
         costs: work_costs,
+        agreements: agreement::view(results),
+        race: results.race.as_ref().map(race::view),
         cost_tables: studies::costs(results),
         ablations: studies::ablations(results),
         stability,

@@ -1,23 +1,32 @@
 //! `seam references race`: the same network and mesh in Seam and in each installed code, in turn.
 
-mod table;
+mod finish;
+mod record;
+mod row;
 
 use super::super::check::print;
 use super::scratch::Scratch;
 use super::tools::{self, Tool};
 use crate::args::Race;
 use anyhow::{Context, Result};
-use seam_cases::export::{Code, race};
+use finish::Finish;
+use row::Row;
+use seam_cases::export::{Code, Export, race};
 use seam_reports::exit::Exit;
+use seam_reports::race::Race as Recorded;
+use seam_reports::terminal;
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::Command;
-use table::{Finish, Row};
 
-/// Who runs, what they are given, and where they leave it.
+/// Who runs.
 struct Lane {
     name: &'static str,
     tool: Option<Tool>,
 }
+
+/// Seam's loop with bonds for finite rotations, which the other codes carry too. It knows one thread.
+const FINITE: &str = "seam-finite";
 
 /// What is run.
 struct Course {
@@ -31,17 +40,25 @@ struct Course {
     own: String,
 }
 
-/// Runs everything, prints the table and writes it.
+/// Runs everything, writes it and prints the table.
 pub fn race(words: &Race) -> Result<Exit> {
     let scratch = Scratch::new()?;
-    let mut rows = Vec::new();
-    let networks = lanes(&[Code::Yade, Code::Lammps])?;
-    let meshes = lanes(&[Code::Calculix])?;
+    let (mut rows, mut inputs) = (Vec::new(), BTreeMap::new());
+    let networks = lanes(&["seam", FINITE], &[Code::Yade, Code::Lammps])?;
+    let meshes = lanes(&["seam"], &[Code::Calculix])?;
+    let mut versions = BTreeMap::new();
+    let mut given = |name: &str, export: &Export, folder: &Path| -> Result<()> {
+        let hashes = export.hashes().into_iter();
+        inputs.extend(hashes.map(|(file, hash)| (format!("{name}/{file}"), hash)));
+        Ok(export.write(folder)?)
+    };
+    let mut courses = Vec::new();
     for &particles in &words.particles {
         let steps = words.steps.get();
         let start = race::vibrating(particles, steps)?;
-        let folder = scratch.0.join(format!("network-{particles}"));
-        start.export(Code::Yade, steps).write(&folder)?;
+        let name = format!("network-{particles}");
+        let folder = scratch.0.join(&name);
+        given(&name, &start.export(Code::Yade, steps), &folder)?;
         let course = Course {
             what: "network",
             size: start.network.particles.len(),
@@ -49,25 +66,32 @@ pub fn race(words: &Race) -> Result<Exit> {
             own: folder.display().to_string(),
             folder,
         };
-        rows.extend(run(&course, &networks, words, &scratch.0)?);
+        courses.push((course, &networks));
     }
     for &nodes in &words.nodes {
         let model = race::clamped_bar(nodes)?;
-        let folder = scratch.0.join(format!("mesh-{nodes}"));
-        race::export_bar(&model).write(&folder)?;
+        let name = format!("mesh-{nodes}");
+        let folder = scratch.0.join(&name);
+        given(&name, &race::export_bar(&model), &folder)?;
         let size = model.parts[0].positions().len();
         let course = Course { what: "mesh", size, amount: 3 * size as u64, folder, own: nodes.to_string() };
-        rows.extend(run(&course, &meshes, words, &scratch.0)?);
+        courses.push((course, &meshes));
     }
-    print(&table::text(&rows))?;
-    table::write(&rows, words, &words.out)?;
-    eprintln!("{}", words.out.join("race.csv").display());
+    for (course, lanes) in &courses {
+        rows.extend(run(course, lanes, words, &scratch.0, &mut versions)?);
+    }
+    let data = record::write(&rows, words, &versions, &inputs)?;
+    print(&terminal::race(&Recorded::of(&data, false)?))?;
+    eprintln!("{}", words.out.join("race/race.csv").display());
+    if words.accept {
+        record::accept(&words.out, &words.home.join("data"))?;
+    }
     Ok(Exit::Pass)
 }
 
 /// Seam and the codes that are installed; one line for each that is not.
-fn lanes(codes: &[Code]) -> Result<Vec<Lane>> {
-    let mut lanes = vec![Lane { name: "seam", tool: None }];
+fn lanes(own: &[&'static str], codes: &[Code]) -> Result<Vec<Lane>> {
+    let mut lanes: Vec<Lane> = own.iter().map(|name| Lane { name, tool: None }).collect();
     for &code in codes {
         match tools::find(code) {
             Ok(tool) => lanes.push(Lane { name: code.name(), tool: Some(tool) }),
@@ -78,9 +102,16 @@ fn lanes(codes: &[Code]) -> Result<Vec<Lane>> {
 }
 
 /// All lanes on all numbers of threads, round after round, so that a busy moment hits every one of them.
-fn run(course: &Course, lanes: &[Lane], words: &Race, scratch: &Path) -> Result<Vec<Row>> {
+fn run(
+    course: &Course,
+    lanes: &[Lane],
+    words: &Race,
+    scratch: &Path,
+    versions: &mut BTreeMap<&'static str, String>,
+) -> Result<Vec<Row>> {
     let mut rows: Vec<Row> = Vec::new();
     for threads in words.threads.iter().map(|n| n.get()) {
+        let lanes: Vec<&Lane> = lanes.iter().filter(|lane| lane.name != FINITE || threads == 1).collect();
         let mut finishes: Vec<Vec<Finish>> = lanes.iter().map(|_| Vec::new()).collect();
         for round in 1..=words.rounds.get() {
             for (lane, finishes) in lanes.iter().zip(&mut finishes) {
@@ -88,12 +119,21 @@ fn run(course: &Course, lanes: &[Lane], words: &Race, scratch: &Path) -> Result<
                     "{} of {}, {threads} threads, round {round}: {}",
                     course.what, course.size, lane.name
                 );
-                finishes.push(once(course, lane, threads, words, scratch)?);
+                let finish = once(course, lane, threads, words, scratch)?;
+                versions.insert(lane.name, finish.version.clone());
+                finishes.push(finish);
             }
         }
-        let own = finishes[0].clone();
-        for (lane, finishes) in lanes.iter().zip(&finishes) {
-            rows.push(Row::new(course.what, course.size, course.amount, threads, lane.name, finishes, &own));
+        for (lane, own) in lanes.iter().zip(&finishes) {
+            rows.push(Row::new(
+                course.what,
+                course.size,
+                course.amount,
+                threads,
+                lane.name,
+                own,
+                &finishes[0],
+            ));
         }
     }
     Ok(rows)
@@ -108,6 +148,7 @@ fn once(course: &Course, lane: &Lane, threads: usize, words: &Race, scratch: &Pa
         None => {
             let mut command = Command::new(std::env::current_exe()?);
             command.args(["references", "lane", &course.own]).arg(&out).arg(threads.to_string());
+            command.args((lane.name == FINITE).then_some("--finite"));
             (command, PathBuf::from("seam references lane"))
         }
         Some(tool) => {
