@@ -48,7 +48,7 @@ pub fn run(setting: &Setting, result: &mut CaseResult) -> Result<()> {
             code: "CalculiX".to_owned(),
             version: data.provenance.version.clone(),
             date: data.provenance.date.to_string(),
-            model: label.replace(" against ", ", "),
+            model: label.replace(", against ", ", ").replace(" against ", ", "),
             compared: "displacement".to_owned(),
             same_model: true,
         });

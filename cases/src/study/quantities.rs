@@ -85,12 +85,12 @@ fn one(
     if quantity.norm.is_none() || !is_of_a_run(quantity) {
         compare(root, study, name, quantity, &mut observation)?;
     }
+    observation.agreement = agreement(root, quantity);
     if let (true, Some(whole)) = (quantity.as_share, observation.reference) {
         // Judged by itself: one is no value it should have.
         (observation.value, observation.unit) = (observation.value / whole, "1".to_owned());
         (observation.reference, observation.u_ref) = (None, 0.0);
     }
-    observation.agreement = agreement(root, quantity);
     if let Some(accept) = &quantity.accept {
         observation.accepted = Some(accepted(study, name, accept, observation.reference)?);
         observation.why = accept.why.clone();
