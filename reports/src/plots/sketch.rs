@@ -89,12 +89,12 @@ fn dimensions(view: &View, bodies: &[BodyOutline]) -> String {
     svg += &length(view, [x0, x1], bottom + if row.is_empty() { 26.0 } else { 62.0 });
     if y1 > y0 {
         let [_, top] = view.at([x1, y1]);
-        let x = right + 26.0;
+        let x = right + 18.0;
         svg += &path(
             "dimension",
             &format!("M{x:.1} {top:.1}V{bottom:.1}M{:.1} {top:.1}h12M{:.1} {bottom:.1}h12", x - 6.0, x - 6.0),
         );
-        svg += &label(x + 10.0, 0.5 * (top + bottom) + 9.0, "start", &metres(y1 - y0));
+        svg += &label(x + 8.0, 0.5 * (top + bottom) + 9.0, "start", &metres(y1 - y0));
     }
     svg
 }

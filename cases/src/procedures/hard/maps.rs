@@ -41,7 +41,7 @@ pub fn run(setting: &Setting, result: &mut CaseResult) -> Result<()> {
             "step-contrast",
             "Step and contrast: elements and particles, explicit",
             "step over its bound (1)",
-            "stiffness of particles over that of elements (1)",
+            "stiffness, DE over FE (1)",
         ];
         map(setting, (words, id), [&logarithmic(0.25, 4.0, side), &contrasts], &stepped, result)?;
         let rated = |ratio: f64, contrast: f64| -> Solved<(Cell, Work)> {
@@ -65,7 +65,7 @@ pub fn run(setting: &Setting, result: &mut CaseResult) -> Result<()> {
             "ratio-contrast",
             "Subcycling ratio and contrast: both sides explicit, Gravouil–Combescure",
             "fine steps per coarse step (1)",
-            "stiffness of particles over that of elements (1)",
+            "stiffness, DE over FE (1)",
         ];
         map(setting, (words, id), [&ratios, &contrasts], &rated, result)?;
         let material = BondMaterial { young_pa: sandwich.young_pa, poisson: setting.number("poisson")? };

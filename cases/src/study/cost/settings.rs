@@ -7,7 +7,7 @@ use crate::scene::Scene;
 use crate::scene::body::{Body, Method};
 use crate::scene::connection::TieMethod;
 use crate::scene::de::{Arrangement, De, Section, Skin};
-use crate::scene::dynamics::Stepping;
+use crate::scene::dynamics::{Rotations, Stepping};
 use crate::scene::fe::{Fe, Formulation};
 use crate::scene::number::Number;
 use serde::Serialize;
@@ -60,8 +60,13 @@ pub fn particles(scene: &Scene) -> impl Iterator<Item = (String, &De)> {
     bodies.chain(scene.switches.iter().map(|(name, switch)| (format!("switches.{name}.de"), &switch.de)))
 }
 
-/// Particles become elements as large as they were, and nothing is switched.
+/// Particles become elements as large as they were, and nothing is switched. `None` where elements cannot do what the scene
+/// asks: turn by any angle, or break.
 pub fn all_elements(scene: &Scene) -> Option<Setting> {
+    let turns = scene.dynamics.as_ref().is_some_and(|d| d.rotations == Rotations::Finite);
+    if turns || scene.cracking.is_some() || !scene.failure.is_empty() {
+        return None;
+    }
     let discrete: Vec<_> = scene.bodies.iter().filter(|(_, body)| body.method == Method::De).collect();
     if discrete.is_empty() && scene.switches.is_empty() {
         return None;
