@@ -68,9 +68,12 @@ pub(crate) fn to_bytes(part: &impl Serialize) -> Vec<u8> {
 /// A part of a state.
 ///
 /// # Errors
-/// Bytes of something else.
+/// Bytes of something else, which may also show in what is left over.
 pub(crate) fn from_bytes<T: DeserializeOwned>(bytes: &[u8]) -> Result<T> {
-    postcard::from_bytes(bytes).map_err(|_| refuse(DAMAGED))
+    match postcard::take_from_bytes(bytes) {
+        Ok((part, [])) => Ok(part),
+        _ => Err(refuse(DAMAGED)),
+    }
 }
 
 #[cfg(test)]

@@ -12,7 +12,7 @@ pub(super) fn table(results: &Results, style: Style) -> String {
     }
     let mut out = heading("Stability margins", style);
     let columns = format!(
-        "  {:<41} {:>10} {:>8} {:>9} {}\n",
+        "  {:<40} {:>10} {:>8} {:>9} {}\n",
         "largest … that still passes", "margin", "needed", "recorded", "verdict"
     );
     out.push_str(&style.paint(Paint::Dim, &columns));
@@ -33,6 +33,6 @@ fn row(m: &MarginResult, style: Style) -> String {
     };
     let recorded = m.recorded.map_or_else(|| "–".to_owned(), number);
     let verdict = style.paint(Paint::verdict(m.verdict), short(m.verdict));
-    let name = cut(&format!("{}: {}", m.label, m.axis), WIDTH - 39);
-    format!("  {name:<41} {value:>10} {:>8} {recorded:>9} {verdict}\n", number(m.needed))
+    let name = cut(&format!("{}: {}", m.label, m.axis), WIDTH - 40);
+    format!("  {name:<40} {value:>10} {:>8} {recorded:>9} {verdict}\n", number(m.needed))
 }
