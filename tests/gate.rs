@@ -124,7 +124,9 @@ fn a_baseline_tells_better_from_worse() {
     assert!(against(0).contains("nothing is worse than it was"));
 
     let sound = text(home.path().join("own-beam/result.json"));
-    let worse: [(&str, i32, fn(&mut Value)); 4] = [
+    /// What is done to the baseline, the exit code, and how.
+    type Worse = (&'static str, i32, fn(&mut Value));
+    let worse: [Worse; 4] = [
         ("CLOSER", 1, |r| {
             let q = &mut r["quantities"][0];
             q["value"] = (q["reference"].as_f64().unwrap() * 1.018).into();

@@ -253,7 +253,7 @@ fn the_clamp_bears_the_load_before_and_after_a_switch_at_the_clamp() {
         "costs={}",
     ]);
     let why = &sudden.effects.iter().find(|e| e.name == "inertia").unwrap().why;
-    assert!(why.contains("up to 1.00") && why.contains("not trusted"), "{why}");
+    assert!(why.contains("is 1.00e0, past 0.05") && why.contains("not trusted"), "{why}");
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! The report: one self-contained page, the answer first.
 //!
-//! [`sections`] lists what the page consists of; `view` puts results into words and figures; the templates do
-//! the rest. A section of its own is a template in `templates/sections/`, a line in [`sections`] and, where the
+//! `sections` lists what the page consists of; `view` puts results into words and figures; the templates do
+//! the rest. A section of its own is a template in `templates/sections/`, a line in `sections` and, where the
 //! results need words, a field of the page and a file in `view/`.
 
 mod files;

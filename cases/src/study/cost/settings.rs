@@ -220,7 +220,10 @@ fn ties(scene: &Scene) -> Vec<Setting> {
 
 /// Other ways through time, and how finely two rates divide a step.
 fn schemes(scene: &Scene) -> Vec<Setting> {
-    let Some(dynamics) = &scene.dynamics else { return Vec::new() };
+    // Only explicit steps turn particles by any angle.
+    let Some(dynamics) = scene.dynamics.as_ref().filter(|d| d.rotations == Rotations::Small) else {
+        return Vec::new();
+    };
     let step = dynamics
         .step_s
         .as_ref()

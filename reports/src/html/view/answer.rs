@@ -45,7 +45,7 @@ fn cost(costs: &[Figure]) -> Option<Answer> {
     (!sentences.is_empty()).then(|| Answer {
         question: "What does an error of 1 % cost?".to_owned(),
         headline: String::new(),
-        text: sentences.join(" "),
+        text: sentences.join("\n\n"),
         verdict: String::new(),
         link: "cost".to_owned(),
     })
