@@ -110,6 +110,9 @@ fn a_ci_service_gets_junit_and_a_summary() {
     assert!(!text(home.path().join("junit.xml")).contains("<failure"));
 }
 
+/// What the failure is called, the exit code, and what is done to the run.
+type Worse = (&'static str, i32, fn(&mut Value));
+
 #[test]
 fn a_baseline_tells_better_from_worse() {
     let home = two_cases();
@@ -124,8 +127,6 @@ fn a_baseline_tells_better_from_worse() {
     assert!(against(0).contains("nothing is worse than it was"));
 
     let sound = text(home.path().join("own-beam/result.json"));
-    /// What is done to the baseline, the exit code, and how.
-    type Worse = (&'static str, i32, fn(&mut Value));
     let worse: [Worse; 4] = [
         ("CLOSER", 1, |r| {
             let q = &mut r["quantities"][0];
