@@ -8,7 +8,7 @@ mod effects;
 
 use crate::map::StabilityMap;
 use crate::margin::Margin;
-pub use cost::{CostDiagram, CostPoint, CostSetting, Growth};
+pub use cost::{Cheaper, CostDiagram, CostPoint, CostSetting, Elsewhere, Growth, PAPER_LIKE};
 pub use effects::{Ablation, AblationChange, AblationRun, EffectUse, Expected, Indicator};
 use schemars::JsonSchema;
 use seam_solver::work::Work;

@@ -25,7 +25,8 @@ pub fn judge(cases: &[CaseResult], provenance: Provenance, recorded: &Recorded) 
 pub fn judge_case(case: &CaseResult, recorded: &Recorded) -> CaseJudgement {
     let orders = case.convergence.iter().filter_map(order_of);
     let growths = case.growths.iter().map(growth::of_work);
-    let observed = case.quantities.iter().cloned().chain(orders).chain(growths);
+    let promises = case.costs.iter().filter_map(cost::promised);
+    let observed = case.quantities.iter().cloned().chain(orders).chain(growths).chain(promises);
     let quantities: Vec<QuantityResult> = observed
         .map(|o| {
             let last = recorded.value(&case.tier, &case.id, &o.id);

@@ -18,6 +18,9 @@ pub struct Work {
     pub solves: u64,
     /// Pairs looked at by the contact search.
     pub contact_checks: u64,
+    /// Pairs looked at while random packings were pushed apart.
+    #[serde(default)]
+    pub packing_checks: u64,
     /// Time or load steps.
     pub steps: u64,
 }
@@ -32,6 +35,7 @@ impl Work {
             + self.factor_nonzeros
             + 2 * per_factor * self.solves
             + self.contact_checks
+            + self.packing_checks
     }
 }
 
@@ -43,6 +47,7 @@ impl AddAssign for Work {
         self.factor_nonzeros += other.factor_nonzeros;
         self.solves += other.solves;
         self.contact_checks += other.contact_checks;
+        self.packing_checks += other.packing_checks;
         self.steps += other.steps;
     }
 }

@@ -2,12 +2,13 @@
 
 use super::super::Study;
 use super::super::evaluate::{self, Solved, Tally};
+use super::elsewhere::elsewhere;
 use super::target::Target;
 use crate::error::Result;
 use crate::file::SceneFile;
 use crate::model::calibration;
 use crate::overrides::Override;
-use crate::result::CostPoint;
+use crate::result::{CostPoint, Elsewhere};
 use seam_solver::stage::{STAGES, Seconds, measured};
 use seam_solver::work::Work;
 use std::collections::BTreeMap;
@@ -76,6 +77,7 @@ pub fn measure(
         seconds_runs: times.len(),
         seconds_of_stages: named(&stages, seconds),
         memory_mb: None,
+        elsewhere: middle.elsewhere,
     })
 }
 
@@ -89,12 +91,14 @@ struct Once {
     calibration: Work,
     seconds: f64,
     stages: Seconds,
+    elsewhere: Option<Elsewhere>,
 }
 
 fn once(study: &Study, target: &Target, file: &SceneFile) -> Result<Once> {
     let (solved, stages) = timed(file, study.tally)?;
     let mut work = solved.solution.work;
     work += solved.built.calibration;
+    work += solved.built.packing;
     Ok(Once {
         file: file.clone(),
         particles: solved.built.particles(),
@@ -103,6 +107,7 @@ fn once(study: &Study, target: &Target, file: &SceneFile) -> Result<Once> {
         calibration: solved.built.calibration,
         seconds: solved.seconds,
         stages,
+        elsewhere: elsewhere(file, &solved),
         error: target.error(study, file, solved.readings)?,
     })
 }

@@ -127,6 +127,7 @@ fn side(file: &SceneFile, solved: &Solved, effect: &str) -> AblationRun {
     let EffectUse { counter, called_for, indicator, .. } = found.unwrap_or_default();
     let mut work = solved.solution.work;
     work += solved.built.calibration;
+    work += solved.built.packing;
     AblationRun { counter, called_for, indicator, work, seconds: solved.seconds }
 }
 
