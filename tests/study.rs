@@ -127,6 +127,25 @@ fn cost_is_studied_without_anything_declared_and_joins_the_run() {
 }
 
 #[test]
+fn a_study_by_itself_is_not_taken_for_a_run_of_its_case() {
+    let home = tempfile::tempdir().unwrap();
+    // Its records hold tolerances and work of a run, none of which an effect study repeats.
+    let effects = study("effects", &["clamped-beam-rotation"], home.path());
+    assert_eq!(effects.code, Some(0), "{}{}", effects.stdout, effects.stderr);
+    assert!(
+        !effects.stdout.contains("LOOSENED") && !effects.stdout.contains("less work"),
+        "{}",
+        effects.stdout
+    );
+    pass(&["check", "--from"], home.path());
+    let records = home.path().join("recorded.toml");
+    fs::write(&records, "schema = \"seam.recorded/1\"\n").unwrap();
+    let words = ["bless", "--accept", "--recorded", records.to_str().unwrap(), "--from"];
+    let bless = call(&words, home.path());
+    assert!(bless.code == Some(4) && bless.stderr.contains("not recorded"), "{}", bless.stderr);
+}
+
+#[test]
 fn a_study_of_another_version_of_the_scene_is_told_and_left_out() {
     let home = tempfile::tempdir().unwrap();
     pass(&["run", "left-out.toml", "--set", r#"effects=["auto"]"#, "--out"], home.path());

@@ -35,7 +35,10 @@ pub fn judge_case(case: &CaseResult, recorded: &Recorded) -> CaseJudgement {
         })
         .collect();
     let judged = |id: &&String| quantities.iter().any(|q| q.id == **id && q.verdict.is_some());
-    let work = recorded.work(&case.tier, &case.id, &case.scene_hash);
+    // What a study by itself does not measure is neither looser nor less than recorded.
+    let whole = !case.study_alone;
+    let work = recorded.work(&case.tier, &case.id, &case.scene_hash).filter(|_| whole);
+    let tolerances = if whole { recorded.tolerances(&case.tier, &case.id) } else { None };
     CaseJudgement {
         id: case.id.clone(),
         title: case.title.clone(),
@@ -43,8 +46,8 @@ pub fn judge_case(case: &CaseResult, recorded: &Recorded) -> CaseJudgement {
         scene_hash: case.scene_hash.clone(),
         command: case.command.clone(),
         effects: case.effects.clone(),
-        expected_in_vain: case.expected_failures.keys().filter(|id| !judged(id)).cloned().collect(),
-        loosened: loosened::loosened(recorded.tolerances(&case.tier, &case.id), &quantities),
+        expected_in_vain: case.expected_failures.keys().filter(|id| whole && !judged(id)).cloned().collect(),
+        loosened: loosened::loosened(tolerances, &quantities),
         tags: case.tags.clone(),
         quantities,
         curves: case.curves.iter().flat_map(judge_curves).collect(),

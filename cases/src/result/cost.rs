@@ -84,6 +84,9 @@ pub struct CostPoint {
     /// The part of [`Work::total`] that calibrations took.
     #[serde(default)]
     pub calibration_work: u64,
+    /// [`Work::total`] of the run alone, without packings and calibrations.
+    #[serde(default)]
+    pub run_work: u64,
     /// Median wall seconds, packing and calibration included. Not deterministic.
     pub seconds: f64,
     /// Shortest and longest run. Not deterministic.

@@ -18,6 +18,7 @@ impl Cost {
     fn label(self) -> &'static str {
         match self {
             Cost::Work => "counted work (updates and factor entries)",
+            Cost::Run => "counted work of the run alone",
             Cost::Seconds => "wall time (s)",
         }
     }
@@ -63,7 +64,7 @@ fn figure(
         }
     }
     let title = match cost {
-        Cost::Work => title,
+        Cost::Work | Cost::Run => title,
         Cost::Seconds => format!("{title}, in seconds"),
     };
     let description = format!("{} over {}", diagram.error_label, cost.label());
@@ -81,7 +82,9 @@ pub fn beside(diagram: &CostDiagram, race: &Race) -> Option<Figure> {
     let others = cost::others(diagram, race);
     let shared = |s: &&CostSetting| others.iter().any(|other| other.setting == s.name);
     let own: Vec<&CostSetting> = diagram.settings.iter().filter(shared).collect();
-    let first = others.first()?;
+    if others.is_empty() {
+        return None;
+    }
     let best = front(diagram, Cost::Seconds);
     let lines = own.iter().flat_map(|s| unbroken(s, Cost::Seconds)).flatten();
     let theirs =
@@ -114,7 +117,7 @@ pub fn beside(diagram: &CostDiagram, race: &Race) -> Option<Figure> {
     let title = format!("{}: other codes beside, in seconds", diagram.title);
     let description = format!("{} over {}", diagram.error_label, Cost::Seconds.label());
     let from = if race.recorded { format!("recorded on {}", race.date) } else { "of this run".to_owned() };
-    let waits = match first.unit == unit("network") {
+    let waits = match others.iter().any(|other| other.unit == unit("network")) {
         true => {
             " A code with explicit steps has to wait for an equilibrium: it is given the least it can take, a lowest mode \
                  damped critically, to 0.1 %."
@@ -173,7 +176,7 @@ fn cheapest(diagram: &CostDiagram, cost: Cost) -> String {
             let particles =
                 if found.particles > 0 { format!(", {} particles", found.particles) } else { String::new() };
             let price = match cost {
-                Cost::Work => format!("{} units of work", grouped(found.work)),
+                Cost::Work | Cost::Run => format!("{} units of work", grouped(found.work)),
                 Cost::Seconds => format!("{} s", significant(found.seconds, 2)),
             };
             format!("≤ {}: {setting}, {}{particles}, {price}", percent(target), found.level)

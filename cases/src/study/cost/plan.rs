@@ -16,6 +16,7 @@ use crate::result::{CaseResult, CostDiagram, CostPoint, CostSetting, PAPER_LIKE}
 use crate::scene::study::CostDeclaration;
 use crate::scene::{Hypothesis, Tier};
 use std::collections::BTreeSet;
+use std::time::Instant;
 
 /// Runs shorter than this are timed again, in s.
 const REPEATED_S: f64 = 2.0;
@@ -117,11 +118,13 @@ impl<'a> CostStudy<'a> {
         let (peers, _) = peer::all(self.file)?;
         let study =
             Study { file: self.file, tier: self.tier, tally: &tally, library: &library, peers: &peers };
-        let mut result = head(self.file, self.tier);
+        let start = Instant::now();
+        let mut result = CaseResult { study_alone: true, ..head(self.file, self.tier) };
         result.command = result.command.replacen("seam run", "seam study cost", 1);
         for diagram in &self.diagrams {
             result.costs.push(diagram.run(&study, around)?);
         }
+        result.seconds = start.elapsed().as_secs_f64();
         Ok(result)
     }
 }
@@ -207,7 +210,7 @@ impl Diagram<'_> {
         let how = match (kept, point.error) {
             (true, _) => "kept".to_owned(),
             (false, Some(error)) => format!("error {:.2} %, {:.2} s", 100.0 * error, point.seconds),
-            (false, None) => "failed".to_owned(),
+            (false, None) => format!("failed: {}", point.failed.as_deref().unwrap_or_default()),
         };
         around.onlooker.done(&what, &how);
         Ok(CostPoint { level: name, ..point })
