@@ -151,13 +151,14 @@ fn median(mut values: Vec<f64>) -> f64 {
 fn main() {
     let stream = [1, 2].map(bandwidth);
     let flops = [1, 2].map(arithmetic);
-    println!(
-        "limits: stream {:.1} GB/s on one thread, {:.1} on two; {:.1} Gflop/s on one, {:.1} on two",
-        stream[0] * 1e-9,
-        stream[1] * 1e-9,
-        flops[0] * 1e-9,
-        flops[1] * 1e-9
-    );
+    for (what, unit, [one, two]) in [("stream", "GB/s", stream), ("arithmetic", "Gflop/s", flops)] {
+        println!(
+            "limit: {what} {:.1} {unit} on one thread, {:.1} on two, {:.2} ×",
+            one * 1e-9,
+            two * 1e-9,
+            two / one
+        );
+    }
     for (size, rows) in [("20k", 13), ("200k", 29)] {
         let network = network(rows);
         let (particles, bonds) = (network.particles.len(), network.bonds.len());

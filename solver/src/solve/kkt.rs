@@ -24,8 +24,13 @@ const DELTA: f64 = 1e-15;
 pub const EPSILONS: [f64; 2] = [1e-7, 1e-11];
 /// Refinement stops when the residual no longer halves, at the latest after this many steps.
 const MOST_REFINEMENTS: usize = 12;
-/// A solution with a larger relative residual is refused.
+/// A solution with a larger relative residual is refused, unless rounding alone keeps it there.
 pub const LARGEST_RESIDUAL: f64 = 1e-9;
+/// Such a solution is taken if one more correction moves it by no more than this, relative to its largest unknown: where
+/// `|K||u|` is a million times the load, as in slender beams, the residual says less than the correction does.
+pub const LARGEST_CORRECTION: f64 = 1e-6;
+/// What rounding leaves of a sum of terms, in units of the last place of the largest sum of their magnitudes.
+const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
 /// What the elimination order is made from.
 pub struct Layout<'a> {
@@ -160,7 +165,7 @@ impl Kkt {
             x.iter_mut().zip(&r).for_each(|(x, d)| *x += d);
         }
         let (residual, x) = best;
-        if residual > LARGEST_RESIDUAL {
+        if residual > LARGEST_RESIDUAL && !self.is_rounding(&x, &f, &g, beside, work) {
             let message = format!(
                 "the residual stays at {residual:.1e} of the forces, above {LARGEST_RESIDUAL:.0e}; \
                  look for a mechanism, contradicting supports or an extreme stiffness contrast"
@@ -172,6 +177,22 @@ impl Kkt {
             multipliers: x[n..].iter().zip(&self.row_scale).map(|(x, s)| x * s).collect(),
             residual,
         })
+    }
+
+    /// Whether rounding alone leaves this residual, and leaves the solution good all the same.
+    ///
+    /// With `r = f − K u − Bᵀλ` at the rounding of its terms, `|r| ≤ c eps |K||u|` (Oettli and Prager 1964), the next
+    /// correction is what rounding does to the solution (Skeel 1980): it has to be small beside the solution.
+    fn is_rounding(&self, x: &[f64], f: &[f64], g: &[f64], beside: [f64; 2], work: &mut Work) -> bool {
+        let n = f.len();
+        let (mut r, _) = self.residual(x, f, g, beside);
+        let motion =
+            self.rows.iter().flatten().fold(norm(g).max(beside[1]), |m, &(i, b)| m.max((b * x[i]).abs()));
+        let forces_at_rounding =
+            norm(&r[..n]) <= ROUNDING * norm(&self.stiffness.multiply_magnitudes(&x[..n]));
+        let rows_hold = norm(&r[n..]) <= LARGEST_RESIDUAL * motion;
+        self.correct(&mut r, work);
+        forces_at_rounding && rows_hold && norm(&r[..n]) <= LARGEST_CORRECTION * norm(&x[..n])
     }
 
     /// Residual of the true scaled system, and its size relative to the forces and displacements that it

@@ -142,6 +142,18 @@ impl SymmetricMatrix {
             y[c] += sum;
         }
     }
+
+    /// `|A| |x|`: what the terms of `A x` add up to before they cancel.
+    pub fn multiply_magnitudes(&self, x: &[f64]) -> Vec<f64> {
+        let mut y = vec![0.0; self.n];
+        for (r, c, v) in self.entries() {
+            y[r] += (v * x[c]).abs();
+            if r != c {
+                y[c] += (v * x[r]).abs();
+            }
+        }
+        y
+    }
 }
 
 /// How the unknowns are ordered before factorising.
