@@ -39,6 +39,8 @@ pub struct Built {
     pub notes: Vec<String>,
     /// Work of the calibrations, whether they were done now or remembered.
     pub calibration: Work,
+    /// Work of the random packings.
+    pub packing: Work,
 }
 
 impl Built {
@@ -134,7 +136,8 @@ fn assemble(file: &SceneFile) -> std::result::Result<Built, Refusal> {
         }
     }
     let model = Model { space: context.space, parts, ties, supports, loads };
-    Ok(Built { model, held_by, laws, notes, calibration: context.calibration.get() })
+    let (calibration, packing) = (context.calibration.get(), context.packing.get());
+    Ok(Built { model, held_by, laws, notes, calibration, packing })
 }
 
 fn check_size(scene: &Scene, part: &Part) -> std::result::Result<(), Fault> {
@@ -150,6 +153,12 @@ fn check_size(scene: &Scene, part: &Part) -> std::result::Result<(), Fault> {
     Ok(())
 }
 
+fn add(to: &Cell<Work>, work: Work) {
+    let mut sum = to.get();
+    sum += work;
+    to.set(sum);
+}
+
 /// What every builder needs.
 pub(crate) struct Context<'a> {
     pub file: &'a SceneFile,
@@ -159,6 +168,8 @@ pub(crate) struct Context<'a> {
     pub hypothesis: elasticity::Hypothesis,
     /// Work of the calibrations so far.
     pub calibration: Cell<Work>,
+    /// Work of the random packings so far.
+    pub packing: Cell<Work>,
 }
 
 impl<'a> Context<'a> {
@@ -171,14 +182,18 @@ impl<'a> Context<'a> {
             Hypothesis::Solid => elasticity::Hypothesis::Solid,
         };
         let space = scene.hypothesis.space();
-        Ok(Self { file, scene, values, space, hypothesis, calibration: Cell::default() })
+        let (calibration, packing) = Default::default();
+        Ok(Self { file, scene, values, space, hypothesis, calibration, packing })
     }
 
     /// Counts the work of one calibration.
     pub fn calibrated(&self, work: Work) {
-        let mut sum = self.calibration.get();
-        sum += work;
-        self.calibration.set(sum);
+        add(&self.calibration, work);
+    }
+
+    /// Counts the pairs that one packing looked at.
+    pub fn packed(&self, packing_checks: u64) {
+        add(&self.packing, Work { packing_checks, ..Work::default() });
     }
 
     /// Material of a body.

@@ -111,8 +111,7 @@ impl Kkt {
         let matrix = SymmetricMatrix::from_triplets(n + rows.len(), &scaled);
         drop(scaled);
         let factor = timed(Stage::Factorisation, || factorise(&matrix, layout))?;
-        work.factorisations += 1;
-        work.factor_nonzeros += factor.nonzeros() as u64;
+        work.factored(factor.nonzeros());
         Ok(Kkt { stiffness, rows: scaled_rows, unknown_scale, row_scale, factor })
     }
 
@@ -224,7 +223,7 @@ impl Kkt {
             row.iter().for_each(|&(i, b)| r[i] += GAMMA * b * r[n + k]);
         }
         self.factor.solve_in_place(r);
-        work.solves += 1;
+        work.solved(self.factor.nonzeros());
     }
 
     /// The softest motion and its stiffness relative to a unit diagonal: at the rounding floor it is a mechanism.
@@ -236,7 +235,7 @@ impl Kkt {
         let mut z: Vec<f64> = (0..n).map(|i| (1.0 + i as f64 * 0.754_877_666).sin()).collect();
         z.resize(n + self.rows.len(), 0.0);
         self.factor.solve_in_place(&mut z);
-        work.solves += 1;
+        work.solved(self.factor.nonzeros());
         z.truncate(n);
         let length = dot(&z, &z).sqrt();
         z.iter_mut().for_each(|v| *v /= length);

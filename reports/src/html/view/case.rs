@@ -89,6 +89,7 @@ fn work(c: &CaseJudgement) -> Vec<(&'static str, String)> {
         ("factor entries", w.factor_nonzeros),
         ("solves", w.solves),
         ("contact checks", w.contact_checks),
+        ("packing checks", w.packing_checks),
         ("steps", w.steps),
     ];
     all.into_iter().filter(|(_, n)| *n > 0).map(|(name, n)| (name, format::grouped(n))).collect()
