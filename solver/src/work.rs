@@ -16,6 +16,10 @@ pub struct Work {
     pub factor_nonzeros: u64,
     /// Triangular solves with a factor.
     pub solves: u64,
+    /// Non-zeros that all solves together went through: those of the factor, forward and back. Small and large factors of one run count for
+    /// what they are.
+    #[serde(default)]
+    pub solve_nonzeros: u64,
     /// Pairs looked at by the contact search.
     pub contact_checks: u64,
     /// Time or load steps.
@@ -26,12 +30,17 @@ impl Work {
     /// One number for work–precision diagrams: element and bond updates, and factor
     /// non-zeros touched once by the factorisation and twice by each solve, all counted alike.
     pub fn total(&self) -> u64 {
-        let per_factor = self.factor_nonzeros.checked_div(self.factorisations).unwrap_or(0);
         self.bond_updates
             + self.element_updates
             + self.factor_nonzeros
-            + 2 * per_factor * self.solves
+            + self.solve_nonzeros
             + self.contact_checks
+    }
+
+    /// Counts solves with a factor of `nonzeros` stored values.
+    pub fn count_solves(&mut self, solves: usize, nonzeros: usize) {
+        self.solves += solves as u64;
+        self.solve_nonzeros += 2 * (solves * nonzeros) as u64;
     }
 }
 
@@ -42,7 +51,25 @@ impl AddAssign for Work {
         self.factorisations += other.factorisations;
         self.factor_nonzeros += other.factor_nonzeros;
         self.solves += other.solves;
+        self.solve_nonzeros += other.solve_nonzeros;
         self.contact_checks += other.contact_checks;
         self.steps += other.steps;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A small factor beside a large one does not make the solves of the large one cheaper.
+    #[test]
+    fn every_solve_counts_its_own_factor() {
+        let mut work = Work { factorisations: 2, factor_nonzeros: 1010, ..Work::default() };
+        work.count_solves(3, 1000);
+        work.count_solves(1, 10);
+        assert_eq!((work.solves, work.solve_nonzeros), (4, 6020));
+        let mut twice = work;
+        twice += work;
+        assert_eq!(twice.total(), 2 * 7030);
     }
 }

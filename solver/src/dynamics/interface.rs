@@ -100,7 +100,7 @@ impl Interface {
             scaled.clear();
             scaled.extend(rows.iter().zip(&self.scale).map(|(row, s)| s * row_product(&row.terms, v)));
             factor.solve_in_place(scaled);
-            work.solves += 1;
+            work.count_solves(1, factor.nonzeros());
             for ((row, s), (z, multiplier)) in
                 rows.iter().zip(&self.scale).zip(scaled.iter().zip(multipliers.iter_mut()))
             {

@@ -196,14 +196,39 @@ impl Kkt {
         (r, size)
     }
 
-    /// Applies the factor to a residual: `[r_u + γBᵀr_λ; r_λ]` on the right-hand side.
-    fn correct(&self, r: &mut [f64], work: &mut Work) {
+    /// Unknowns and multipliers for several right-hand sides (forces, row values) by one pass through the factor, not refined: exact to
+    /// about ε where there are rows. For loops that refine on a residual of their own.
+    pub fn apply(&self, sides: &[[&[f64]; 2]], work: &mut Work) -> Vec<[Vec<f64>; 2]> {
+        let (n, m) = (self.unknown_scale.len(), self.row_scale.len());
+        let mut x = Vec::with_capacity((n + m) * sides.len());
+        for [f, g] in sides {
+            let from = x.len();
+            x.extend(f.iter().zip(&self.unknown_scale).map(|(f, s)| f * s));
+            x.extend(g.iter().zip(&self.row_scale).map(|(g, s)| g * s));
+            self.augment(&mut x[from..]);
+        }
+        self.factor.solve_columns(&mut x, sides.len());
+        work.count_solves(sides.len(), self.factor.nonzeros());
+        let unscaled = |x: &[f64], scale: &[f64]| x.iter().zip(scale).map(|(x, s)| x * s).collect();
+        let columns = x.chunks_exact((n + m).max(1));
+        columns
+            .map(|x| [unscaled(&x[..n], &self.unknown_scale), unscaled(&x[n..], &self.row_scale)])
+            .collect()
+    }
+
+    /// `[r_u + γBᵀr_λ; r_λ]`.
+    fn augment(&self, r: &mut [f64]) {
         let n = self.unknown_scale.len();
         for (k, row) in self.rows.iter().enumerate() {
             row.iter().for_each(|&(i, b)| r[i] += GAMMA * b * r[n + k]);
         }
+    }
+
+    /// Applies the factor to a residual.
+    fn correct(&self, r: &mut [f64], work: &mut Work) {
+        self.augment(r);
         self.factor.solve_in_place(r);
-        work.solves += 1;
+        work.count_solves(1, self.factor.nonzeros());
     }
 
     /// The softest motion and its stiffness relative to a unit diagonal: at the rounding floor it is a mechanism.
@@ -215,7 +240,7 @@ impl Kkt {
         let mut z: Vec<f64> = (0..n).map(|i| (1.0 + i as f64 * 0.754_877_666).sin()).collect();
         z.resize(n + self.rows.len(), 0.0);
         self.factor.solve_in_place(&mut z);
-        work.solves += 1;
+        work.count_solves(1, self.factor.nonzeros());
         z.truncate(n);
         let length = dot(&z, &z).sqrt();
         z.iter_mut().for_each(|v| *v /= length);

@@ -88,6 +88,7 @@ fn work(c: &CaseJudgement) -> Vec<(&'static str, String)> {
         ("factorisations", w.factorisations),
         ("factor entries", w.factor_nonzeros),
         ("solves", w.solves),
+        ("factor entries of all solves", w.solve_nonzeros),
         ("contact checks", w.contact_checks),
         ("steps", w.steps),
     ];

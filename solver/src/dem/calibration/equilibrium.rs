@@ -30,7 +30,7 @@ impl Equilibrium {
         let mut correction = self.residual(&x, f);
         self.factor.solve_in_place(&mut correction);
         x.iter_mut().zip(&correction).for_each(|(x, c)| *x += c);
-        work.solves += 2;
+        work.count_solves(2, self.factor.nonzeros());
         // Forces that balance to rounding are nothing to be relative to: what the unknowns push does as well.
         let pushed = self.matrix.diagonal().iter().zip(&x).map(|(k, x)| (k * x).abs()).fold(0.0, f64::max);
         let size = pushed.max(amax(f));
