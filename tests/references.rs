@@ -256,6 +256,7 @@ fn seam_races_alone_where_nothing_else_is_installed() {
     assert_eq!(code, Some(0), "{said}");
     assert!(said.contains("yade: not installed; install it with: sh references/install/yade.sh"), "{said}");
     assert!(said.lines().all(|line| line.starts_with('/') || line.chars().count() <= 80), "{said}");
+    assert!(said.contains("/seam: what share of it Seam is"), "{said}");
     let race = out.join("race/race.csv");
     let csv = fs::read_to_string(&race).unwrap();
     let lanes: Vec<&str> = csv.lines().skip(1).map(|l| l.split(',').nth(3).unwrap()).collect();

@@ -19,7 +19,10 @@ pub fn race(race: &Race) -> String {
             "{size:>9} thr {:<12} {:>7} {:>15} {:>6} {:>6} {:>5} {:>8}",
             "code", "median", "range", "/seam", "/finite", "MiB", "end"
         );
-        lanes.for_each(|lane| line(&mut text, lane));
+        lanes.clone().for_each(|lane| line(&mut text, lane));
+        if lanes.any(Lane::is_limit) {
+            text += "bandwidth, arithmetic: what the machine allows; /seam: what share of it Seam is\n";
+        }
     }
     text
 }
