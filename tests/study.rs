@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{call, files, pass, seam};
+use common::{call, files, pass, scenes, seam};
 use serde_json::Value;
 use std::fs;
 use std::path::Path;
@@ -39,15 +39,20 @@ fn an_effect_left_out_that_the_scene_calls_for_is_1_and_not_trusted() {
 
 #[test]
 fn a_judged_number_of_a_variant_is_trusted_only_if_the_variant_is() {
-    let variant = r#"variants.still={ effects = [] }"#;
-    let judged = r#", accept = { interval = [-1, 0], why = "Any deflection: what is tested is trust." }"#;
+    let moving = fs::read_to_string(scenes().join("left-out.toml")).unwrap();
+    let moving = moving.replace("effects = []", r#"effects = ["auto"]"#);
+    let judged = r#"accept = { interval = [-1, 0], why = "Any deflection: what is tested is trust." }"#;
     for (accept, code, trusted) in [(judged, Some(1), false), ("", Some(0), true)] {
         let home = tempfile::tempdir().unwrap();
-        let quantity =
-            format!(r#"quantities.still={{ label = "Still", probe = "tip", variants = ["still"]{accept} }}"#);
-        let sets = [r#"effects=["auto"]"#, variant, &quantity].map(|set| ["--set", set]).concat();
-        pass(&[&["run", "left-out.toml"], &sets[..], &["--out"]].concat(), home.path());
-        let check = call(&["check", "--from"], home.path());
+        let still = format!(
+            "[variants.still]\neffects = []\n\n\
+             [quantities.still]\nlabel = \"Still\"\nprobe = \"tip\"\nvariants = [\"still\"]\n{accept}\n"
+        );
+        let scene = home.path().join("left-out.toml");
+        fs::write(&scene, format!("{moving}\n{still}")).unwrap();
+        let out = home.path().join("out");
+        pass(&["run", scene.to_str().unwrap(), "--out"], &out);
+        let check = call(&["check", "--from"], out.as_path());
         assert_eq!(check.code, code, "{}", check.stdout);
         assert_eq!(
             check.stdout.contains("NOT TRUSTED left-out / inertia (still)"),
@@ -55,7 +60,7 @@ fn a_judged_number_of_a_variant_is_trusted_only_if_the_variant_is() {
             "{}",
             check.stdout
         );
-        assert_eq!(json(&home.path().join("results.json"))["cases"][0]["trusted"], trusted);
+        assert_eq!(json(&out.join("results.json"))["cases"][0]["trusted"], trusted);
     }
 }
 

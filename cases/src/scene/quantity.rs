@@ -29,6 +29,9 @@ pub struct Quantity {
     /// the combination before `variants`, and before the variants of its reference.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub across: Vec<Vec<String>>,
+    /// Effects that these variants leave out on purpose although they call for them: what that does is the number.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub leaves_out: Vec<String>,
     /// Histories only: which of its values; the one at the end if neither this nor `norm` is given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub take: Option<Take>,

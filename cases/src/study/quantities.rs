@@ -42,9 +42,10 @@ pub fn all(
                 place.insert((file, solved))
             }
         };
-        if quantity.accept.is_some() && guarded.insert(&quantity.variants) {
-            let called_for = effects::used(file, solved).into_iter().filter(|effect| effect.called_for);
-            missing.extend(called_for.map(|e| EffectUse { variants: quantity.variants.clone(), ..e }));
+        if quantity.accept.is_some() && guarded.insert((&quantity.variants, &quantity.leaves_out)) {
+            let called_for = |e: &EffectUse| e.called_for && !quantity.leaves_out.contains(&e.name);
+            let left_out = effects::used(file, solved).into_iter().filter(called_for);
+            missing.extend(left_out.map(|e| EffectUse { variants: quantity.variants.clone(), ..e }));
         }
         all.push(one(study, &Study { file, ..*study }, name, quantity, solved, refined)?);
     }
