@@ -34,12 +34,7 @@ fn one(study: &Study, name: &str, declared: &CostDeclaration) -> Result<CostDiag
             setting.points.push(point(study, &target, &changes, level_name(&declared.levels, value)));
         }
     }
-    Ok(CostDiagram {
-        id: name.to_owned(),
-        title: declared.title.clone(),
-        settings,
-        ..target.head(study)
-    })
+    Ok(CostDiagram { id: name.to_owned(), title: declared.title.clone(), settings, ..target.head(study) })
 }
 
 /// A setting that cannot run is a gap in its line, with the reason.
