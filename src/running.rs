@@ -88,8 +88,7 @@ pub fn run(
     // Before anything is computed that could not be kept.
     std::fs::create_dir_all(out)
         .map_err(|e| anyhow!("--out {}: {e}; name a folder that can be written", out.display()))?;
-    let threads = running.jobs.map_or(0, NonZeroUsize::get);
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build()?;
+    let pool = pool(running)?;
     let progress = Progress::new(files.len(), running.quiet);
     // The heaviest first, so that none is left alone at the end.
     let mut order: Vec<&SceneFile> = files.iter().collect();
@@ -101,6 +100,12 @@ pub fn run(
     let failed = pool.install(|| order.par_iter().with_max_len(1).filter_map(failure).collect());
     progress.finish();
     Ok(failed)
+}
+
+/// As many threads as were asked for, else one per core.
+pub fn pool(running: &Running) -> Result<rayon::ThreadPool> {
+    let threads = running.jobs.map_or(0, NonZeroUsize::get);
+    Ok(rayon::ThreadPoolBuilder::new().num_threads(threads).build()?)
 }
 
 /// Prints all failures but the first, which is returned.

@@ -219,6 +219,34 @@ fn only_accepted_numbers_replace_what_is_committed() {
     assert!(said.contains("static.py failed") && said.contains("out of particles"), "{said}");
 }
 
+/// A code that ends well and leaves nothing, or half of it, is an error that says what the code said.
+#[cfg(unix)]
+#[test]
+fn a_lane_without_a_whole_result_stops_the_race() {
+    use std::os::unix::fs::PermissionsExt;
+    let tools = tempfile::tempdir().unwrap();
+    let file = tools.path().join("yade");
+    let race = |script: &str| {
+        fs::write(&file, format!("#!/bin/sh\nPATH=/usr/bin:/bin\n{script}\n")).unwrap();
+        fs::set_permissions(&file, fs::Permissions::from_mode(0o755)).unwrap();
+        let out = tools.path().join("out");
+        let words = ["race", "--particles", "100", "--nodes", "100", "--steps", "5", "--rounds", "1"];
+        let out = ["--out", out.to_str().unwrap()];
+        references(tools.path(), &[&words[..], &out[..]].concat())
+    };
+    // Its words: -n -x -j1 SCRIPT FOLDER OUT.
+    let (code, said) = race("echo the second rank has left >&2");
+    assert_eq!(code, Some(2), "{said}");
+    for part in ["race.py ended without an error and without a whole result", "the second rank has left"] {
+        assert!(said.contains(part), "'{part}' is not in:\n{said}");
+    }
+    let half = "mkdir -p $6; printf 'seconds = 1.0\\nmemory_mb = 1.0\\nversion = 1\\n' > $6/time.toml; \
+                printf 'ux,uy,uz\\n0,0,0\\n' > $6/final.csv";
+    let (code, said) = race(half);
+    assert_eq!(code, Some(2), "{said}");
+    assert!(said.contains("final.csv has 1 rows for"), "{said}");
+}
+
 #[test]
 fn seam_races_alone_where_nothing_else_is_installed() {
     let empty = tempfile::tempdir().unwrap();
@@ -228,10 +256,12 @@ fn seam_races_alone_where_nothing_else_is_installed() {
     assert_eq!(code, Some(0), "{said}");
     assert!(said.contains("yade: not installed; install it with: sh references/install/yade.sh"), "{said}");
     assert!(said.lines().all(|line| line.starts_with('/') || line.chars().count() <= 80), "{said}");
+    assert!(said.contains("/seam: what share of it Seam is"), "{said}");
     let race = out.join("race/race.csv");
     let csv = fs::read_to_string(&race).unwrap();
     let lanes: Vec<&str> = csv.lines().skip(1).map(|l| l.split(',').nth(3).unwrap()).collect();
-    let network = ["seam", "seam-finite", "seam"];
+    let limits = ["bandwidth", "arithmetic"];
+    let network = [&["seam", "seam-finite"], &limits[..], &["seam"], &limits[..]].concat();
     assert_eq!(lanes, [&network[..], &["seam"; 2]].concat(), "one and two threads: {csv}");
 
     pass(&["run", "bond-matrix", "--out"], &out);

@@ -38,6 +38,28 @@ fn an_effect_left_out_that_the_scene_calls_for_is_1_and_not_trusted() {
 }
 
 #[test]
+fn a_judged_number_of_a_variant_is_trusted_only_if_the_variant_is() {
+    let variant = r#"variants.still={ effects = [] }"#;
+    let judged = r#", accept = { interval = [-1, 0], why = "Any deflection: what is tested is trust." }"#;
+    for (accept, code, trusted) in [(judged, Some(1), false), ("", Some(0), true)] {
+        let home = tempfile::tempdir().unwrap();
+        let quantity =
+            format!(r#"quantities.still={{ label = "Still", probe = "tip", variants = ["still"]{accept} }}"#);
+        let sets = [r#"effects=["auto"]"#, variant, &quantity].map(|set| ["--set", set]).concat();
+        pass(&[&["run", "left-out.toml"], &sets[..], &["--out"]].concat(), home.path());
+        let check = call(&["check", "--from"], home.path());
+        assert_eq!(check.code, code, "{}", check.stdout);
+        assert_eq!(
+            check.stdout.contains("NOT TRUSTED left-out / inertia (still)"),
+            !trusted,
+            "{}",
+            check.stdout
+        );
+        assert_eq!(json(&home.path().join("results.json"))["cases"][0]["trusted"], trusted);
+    }
+}
+
+#[test]
 fn effects_that_cannot_be_switched_say_why() {
     for (effects, message) in [
         (r#"["inertai"]"#, "did you mean 'inertia'"),
@@ -102,6 +124,25 @@ fn cost_is_studied_without_anything_declared_and_joins_the_run() {
     assert_eq!(cases[0]["costs"].as_array().unwrap().len(), 1);
     let page = fs::read_to_string(home.path().join("report.html")).unwrap();
     assert!(page.contains("Cheapest setting") && page.contains("Where the time goes"));
+}
+
+#[test]
+fn a_study_by_itself_is_not_taken_for_a_run_of_its_case() {
+    let home = tempfile::tempdir().unwrap();
+    // Its records hold tolerances and work of a run, none of which an effect study repeats.
+    let effects = study("effects", &["clamped-beam-rotation"], home.path());
+    assert_eq!(effects.code, Some(0), "{}{}", effects.stdout, effects.stderr);
+    assert!(
+        !effects.stdout.contains("LOOSENED") && !effects.stdout.contains("less work"),
+        "{}",
+        effects.stdout
+    );
+    pass(&["check", "--from"], home.path());
+    let records = home.path().join("recorded.toml");
+    fs::write(&records, "schema = \"seam.recorded/1\"\n").unwrap();
+    let words = ["bless", "--accept", "--recorded", records.to_str().unwrap(), "--from"];
+    let bless = call(&words, home.path());
+    assert!(bless.code == Some(4) && bless.stderr.contains("not recorded"), "{}", bless.stderr);
 }
 
 #[test]

@@ -8,7 +8,7 @@ mod effects;
 
 use crate::map::StabilityMap;
 use crate::margin::Margin;
-pub use cost::{CostDiagram, CostPoint, CostSetting, Growth};
+pub use cost::{Cheaper, CostDiagram, CostPoint, CostSetting, Elsewhere, Growth, PAPER_LIKE};
 pub use effects::{Ablation, AblationChange, AblationRun, EffectUse, Expected, Indicator};
 use schemars::JsonSchema;
 use seam_solver::work::Work;
@@ -39,6 +39,9 @@ pub struct CaseResult {
     pub scene_hash: String,
     /// The command that runs just this case again.
     pub command: String,
+    /// Whether this is a study by itself, which does not measure what else a run of its case does.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub study_alone: bool,
     /// Effects that were on or off, and why.
     pub effects: Vec<EffectUse>,
     /// Parameters with their units.

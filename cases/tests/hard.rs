@@ -1,25 +1,17 @@
 //! The hard cases: every one holds with its margins, and goes red when what it guards is broken.
 
-use seam_cases::catalogue;
-use seam_cases::overrides::Override;
-use seam_cases::procedures::run;
-use seam_cases::result::CaseResult;
-use seam_cases::scene::Tier;
+mod common;
 
-fn changed(id: &str, changes: &[&str]) -> CaseResult {
-    let changes: Vec<Override> = changes.iter().map(|c| Override::parse(c).unwrap()).collect();
-    run(&catalogue::case(id, &changes).unwrap(), Tier::Quick).unwrap().result
-}
+use common::{changed, outside};
+use seam_cases::catalogue;
+use seam_cases::result::CaseResult;
 
 /// Ids of quantities outside of their interval and of margins below what is needed.
 fn red(result: &CaseResult) -> Vec<String> {
-    let good = |value: f64, [low, high]: [f64; 2]| low <= value && value <= high;
-    let known = |id: &String| result.expected_failures.contains_key(id);
-    let judged = result.quantities.iter().filter(|q| !known(&q.id));
-    let quantities = judged.filter(|q| q.accepted.is_some_and(|i| !good(q.value, i)));
     let small = |value: f64, needed: f64| value.is_nan() || value < needed;
     let margins = result.margins.iter().filter(|m| small(m.value, m.needed));
-    quantities.map(|q| q.id.clone()).chain(margins.map(|m| format!("margin {}", m.id))).collect()
+    let quantities = outside(result).into_iter().map(str::to_owned);
+    quantities.chain(margins.map(|m| format!("margin {}", m.id))).collect()
 }
 
 fn holds(id: &str) {

@@ -2,9 +2,11 @@
 //! would have cost.
 
 mod advantage;
+mod others;
 mod reach;
 
-pub use advantage::{Advantage, advantages};
+pub use advantage::{Advantage, advantages, promised};
+pub use others::{Other, others};
 pub use reach::{Cost, Reached, reached};
 
 use schemars::JsonSchema;

@@ -5,7 +5,7 @@ use seam_solver::work::Work;
 use std::collections::BTreeMap;
 
 /// Counters of iterations, which rounding moves: solves include the steps of iterative refinement.
-const ITERATIONS: [&str; 2] = ["solves", "solve_nonzeros"];
+const ITERATIONS: [&str; 2] = ["solves", "solve_entries"];
 
 /// What a count of iterations may differ by.
 const ITERATIONS_SHARE: f64 = 0.1;

@@ -92,14 +92,14 @@ pub fn members(family: &Family) -> Result<String, ResultsError> {
 /// # Errors
 /// None in practice: the text is written to memory.
 pub fn points(diagram: &CostDiagram) -> Result<String, ResultsError> {
-    let header = "setting,level,error,error_lo,error_hi,particles,unknowns,work,calibration_work,steps,seconds,seconds_lo,\
+    let header = "setting,level,error,error_lo,error_hi,particles,unknowns,work,run_work,calibration_work,steps,seconds,seconds_lo,\
                   seconds_hi,memory_mb,failed";
     let rows = diagram.settings.iter().flat_map(|s| {
         s.points.iter().map(|p| {
             let [lo, hi] = p.spread.map_or([None, None], |spread| spread.map(Some));
             let mut row = vec![s.name.clone(), p.level.clone(), number(p.error), number(lo), number(hi)];
             row.extend([p.particles, p.unknowns].map(|n| n.to_string()));
-            row.extend([p.work.total(), p.calibration_work, p.work.steps].map(|n| n.to_string()));
+            row.extend([p.work.total(), p.run_work, p.calibration_work, p.work.steps].map(|n| n.to_string()));
             let [shortest, longest] = p.seconds_spread;
             row.extend([Some(p.seconds), Some(shortest), Some(longest), p.memory_mb].map(number));
             row.push(p.failed.clone().unwrap_or_default());

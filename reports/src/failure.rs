@@ -201,7 +201,7 @@ fn of_effect(case: &CaseJudgement, effect: &EffectUse) -> Option<Failure> {
             "the scene calls for {}, which was left out: no number of this case is trusted; simulate it, or change the scene",
             effect.name
         ),
-        ..failure(case, NOT_TRUSTED, &effect.name)
+        ..failure(case, NOT_TRUSTED, &effect.place())
     })
 }
 

@@ -25,7 +25,8 @@ pub fn judge(cases: &[CaseResult], provenance: Provenance, recorded: &Recorded) 
 pub fn judge_case(case: &CaseResult, recorded: &Recorded) -> CaseJudgement {
     let orders = case.convergence.iter().filter_map(order_of);
     let growths = case.growths.iter().map(growth::of_work);
-    let observed = case.quantities.iter().cloned().chain(orders).chain(growths);
+    let promises = case.costs.iter().filter_map(cost::promised);
+    let observed = case.quantities.iter().cloned().chain(orders).chain(growths).chain(promises);
     let quantities: Vec<QuantityResult> = observed
         .map(|o| {
             let last = recorded.value(&case.tier, &case.id, &o.id);
@@ -34,7 +35,10 @@ pub fn judge_case(case: &CaseResult, recorded: &Recorded) -> CaseJudgement {
         })
         .collect();
     let judged = |id: &&String| quantities.iter().any(|q| q.id == **id && q.verdict.is_some());
-    let work = recorded.work(&case.tier, &case.id, &case.scene_hash);
+    // What a study by itself does not measure is neither looser nor less than recorded.
+    let whole = !case.study_alone;
+    let work = recorded.work(&case.tier, &case.id, &case.scene_hash).filter(|_| whole);
+    let tolerances = if whole { recorded.tolerances(&case.tier, &case.id) } else { None };
     CaseJudgement {
         id: case.id.clone(),
         title: case.title.clone(),
@@ -42,8 +46,8 @@ pub fn judge_case(case: &CaseResult, recorded: &Recorded) -> CaseJudgement {
         scene_hash: case.scene_hash.clone(),
         command: case.command.clone(),
         effects: case.effects.clone(),
-        expected_in_vain: case.expected_failures.keys().filter(|id| !judged(id)).cloned().collect(),
-        loosened: loosened::loosened(recorded.tolerances(&case.tier, &case.id), &quantities),
+        expected_in_vain: case.expected_failures.keys().filter(|id| whole && !judged(id)).cloned().collect(),
+        loosened: loosened::loosened(tolerances, &quantities),
         tags: case.tags.clone(),
         quantities,
         curves: case.curves.iter().flat_map(judge_curves).collect(),

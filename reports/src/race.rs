@@ -9,6 +9,11 @@ pub const SEAM: &str = "seam";
 /// Seam's lane with bonds for finite rotations.
 pub const SEAM_FINITE: &str = "seam-finite";
 
+/// What the machine's memory allows Seam's lane for small rotations.
+pub const BANDWIDTH: &str = "bandwidth";
+/// What its arithmetic allows that lane.
+pub const ARITHMETIC: &str = "arithmetic";
+
 /// A race.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Race {
@@ -28,7 +33,7 @@ pub struct Race {
     pub lanes: Vec<Lane>,
 }
 
-/// One code on one size and number of threads.
+/// One code, or one limit of the machine, on one size and number of threads.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Lane {
     /// `network` or `mesh`.
@@ -47,10 +52,11 @@ pub struct Lane {
     pub times_seam: f64,
     /// Wall time over that of Seam with finite rotations, on as many threads; `null` where that was not run.
     pub times_finite: Option<f64>,
-    /// Largest memory, in MiB.
-    pub memory_mib: f64,
-    /// Largest difference of a displacement at the end from Seam's, relative to the largest.
-    pub difference: f64,
+    /// Largest memory, in MiB; `null` for a limit.
+    pub memory_mib: Option<f64>,
+    /// Largest difference of a displacement at the end from Seam's, with finite rotations for a network, relative to the
+    /// largest; `null` for Seam's own and for a limit.
+    pub difference: Option<f64>,
 }
 
 impl Lane {
@@ -59,12 +65,19 @@ impl Lane {
         [SEAM, SEAM_FINITE].contains(&self.code.as_str())
     }
 
+    /// Whether it is what the machine allows.
+    pub fn is_limit(&self) -> bool {
+        [BANDWIDTH, ARITHMETIC].contains(&self.code.as_str())
+    }
+
     /// Name for people.
     pub fn title(&self) -> &str {
         match self.code.as_str() {
             SEAM if self.what == "network" => "Seam, small rotations",
             SEAM => "Seam",
             SEAM_FINITE => "Seam, finite rotations",
+            BANDWIDTH => "Limit of memory",
+            ARITHMETIC => "Limit of arithmetic",
             "yade" => "YADE",
             "lammps" => "LAMMPS",
             "calculix" => "CalculiX",
@@ -88,6 +101,9 @@ impl Race {
         let (memory, difference) = (data.column("memory_mb", "1")?, data.column("difference", "1")?);
         let like = |a: usize, b: usize| what[a] == what[b] && size[a] == size[b] && threads[a] == threads[b];
         let finite = |row: usize| (0..data.rows()).find(|&k| code[k] == SEAM_FINITE && like(k, row));
+        let is = |row: usize, codes: &[&str]| codes.contains(&code[row].as_str());
+        let limit = |row: usize| is(row, &[BANDWIDTH, ARITHMETIC]);
+        let target = |row: usize| is(row, &[if what[row] == "mesh" { SEAM } else { SEAM_FINITE }]);
         let lane = |k: usize| Lane {
             what: what[k].clone(),
             size: size[k],
@@ -96,9 +112,9 @@ impl Race {
             seconds: seconds[k],
             rate: rates.map(|rate| rate[k]),
             times_seam: ratio[k],
-            times_finite: finite(k).map(|f| seconds[k] / seconds[f]),
-            memory_mib: memory[k],
-            difference: difference[k],
+            times_finite: finite(k).filter(|_| !limit(k)).map(|f| seconds[k] / seconds[f]),
+            memory_mib: (!limit(k)).then_some(memory[k]),
+            difference: (!limit(k) && !target(k)).then_some(difference[k]),
         };
         let p = &data.provenance;
         Ok(Race {

@@ -3,6 +3,7 @@
 //! Nothing in it depends on the machine or the clock. Numbers that are rounding error have other digits on
 //! another processor, so a pure number below 1e-9 is written as that bound.
 
+use crate::ablation::AblationJudgement;
 use crate::activity::Activity;
 use crate::claims::meaning;
 use crate::failure::interval;
@@ -26,6 +27,8 @@ pub fn document(results: &Results, cases: &[CaseResult]) -> String {
         costs(&measured),
         budgets(&measured),
         margins(results),
+        ablations(results),
+        agreements(results),
         format!("## Numbers\n\n{}", results.cases.iter().map(numbers).collect::<String>()),
     ];
     parts.concat()
@@ -112,6 +115,68 @@ fn margins(results: &Results) -> String {
     let head =
         "| hard case | body and scheme | raised | margin | needed | verdict |\n|---|---|---|---:|---:|---|\n";
     section("Stability margins", format!("{head}{rows}\n"))
+}
+
+/// What leaving an effect out changes, and whether the run without it says so.
+fn ablations(results: &Results) -> String {
+    let of = |case: &CaseJudgement| {
+        let one = |a: &AblationJudgement| {
+            format!(
+                "| {} | {} | {} | {} | {} | {} | {} |\n",
+                case.id,
+                escape(&a.label),
+                a.effect,
+                a.largest_change.map_or("not measured".to_owned(), percent),
+                a.work_ratio.map_or(String::new(), |r| format!("{} ×", significant(r, 3))),
+                if a.caught { "called for" } else { "silent" },
+                a.verdict.map_or("shown".to_owned(), |v| v.to_string()),
+            )
+        };
+        case.ablations.iter().map(one).collect::<String>()
+    };
+    let rows: String = results.cases.iter().map(of).collect();
+    if rows.is_empty() {
+        return rows;
+    }
+    let head = "| case | scene | effect left out | largest change | work | guard | verdict |\n|---|---|---|---:|---:|---|---|\n";
+    section("Effects left out", format!("{head}{rows}\n"))
+}
+
+/// Numbers that stand beside those of another code.
+fn agreements(results: &Results) -> String {
+    let of = |case: &CaseJudgement| {
+        let one = |q: &QuantityResult| {
+            let a = q.agreement.as_ref()?;
+            let model = if a.same_model { "the same" } else { "another" };
+            Some(format!(
+                "| {} | {} | {} {} | {} | {model} | {} | {} | {} |\n",
+                case.id,
+                escape(&q.label),
+                a.code,
+                a.version,
+                a.date,
+                difference(q),
+                interval(q).unwrap_or_default(),
+                q.verdict.map_or("shown".to_owned(), |v| v.to_string()),
+            ))
+        };
+        case.quantities.iter().filter_map(one).collect::<String>()
+    };
+    let rows: String = results.cases.iter().map(of).collect();
+    if rows.is_empty() {
+        return rows;
+    }
+    let head = "| case | number | code | run on | model | difference | accepted | verdict |\n|---|---|---|---|---|---:|---|---|\n";
+    section("Agreement with other codes", format!("{head}{rows}\n"))
+}
+
+/// A difference as it is, a value beside that of the code as their relative difference.
+fn difference(q: &QuantityResult) -> String {
+    match q.value {
+        _ if q.error.is_some() => error(q),
+        Some(value) => with_unit(value, &q.unit),
+        None => "not measured".to_owned(),
+    }
 }
 
 /// A heading with what stands under it; nothing without that.

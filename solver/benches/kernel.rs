@@ -15,6 +15,7 @@ use seam_solver::dem::bonding::{BondRecipe, bond_network};
 use seam_solver::dem::corotational::Corotational;
 use seam_solver::dem::kernel::Kernel;
 use seam_solver::dem::kernel::locality::{order, renumber};
+use seam_solver::dem::kernel::per_bond::PerBond;
 use seam_solver::dem::kernel::vibration::Vibration;
 use seam_solver::dem::lattice::{LatticeKind, lattice};
 use seam_solver::dem::network::Network;
@@ -23,6 +24,7 @@ use seam_solver::dem::skin::Skin;
 use seam_solver::dynamics::State;
 use seam_solver::dynamics::explicit::{Explicit, Options};
 use seam_solver::dynamics::forces::Rotations;
+use seam_solver::limits::{arithmetic, bandwidth};
 use seam_solver::model::{Model, Part};
 use seam_solver::space::{Space, Vec3};
 use std::hint::black_box;
@@ -31,9 +33,6 @@ use std::time::Instant;
 const TURNS: usize = 31;
 /// Bond updates of each contender and turn: long beside the start of a thread.
 const UPDATES: usize = 2_000_000;
-/// Products and sums of a solid bond, and of the integration of a particle.
-const BOND_FLOPS: f64 = 78.0;
-const PARTICLE_FLOPS: f64 = 24.0;
 
 /// A face-centred cubic bar, twice as long as high, of about `4·2·rows³` particles.
 fn network(rows: usize) -> Network {
@@ -47,44 +46,6 @@ fn network(rows: usize) -> Network {
     };
     let network = bond_network(&l.arrangement, &l.pairs, &recipe).expect("a network");
     renumber(&network, &order(&network))
-}
-
-/// Bytes per second of `a ← b + s c` on `threads` threads, with arrays far larger than the caches.
-fn stream_bandwidth(threads: usize) -> f64 {
-    const N: usize = 8_000_000;
-    let (mut a, b, c) = (vec![0.0; N], vec![1.0; N], vec![2.0; N]);
-    let part = N / threads;
-    let mut best = f64::INFINITY;
-    for round in 0..10 {
-        let s = f64::from(round);
-        let start = Instant::now();
-        std::thread::scope(|scope| {
-            for (a, (b, c)) in a.chunks_mut(part).zip(b.chunks(part).zip(c.chunks(part))) {
-                scope.spawn(move || {
-                    a.iter_mut().zip(b.iter().zip(c)).for_each(|(a, (b, c))| *a = b + s * c);
-                });
-            }
-        });
-        best = best.min(start.elapsed().as_secs_f64());
-        black_box(&a);
-    }
-    24.0 * N as f64 / best
-}
-
-/// Products and sums per second of one core, as this crate is compiled: many independent chains `x ← x a + b`.
-fn arithmetic() -> f64 {
-    const ROUNDS: usize = 2_000_000;
-    let mut best = f64::INFINITY;
-    for _ in 0..10 {
-        let (mut x, a, b) = (black_box([1.0f64; 24]), black_box(0.5), black_box(0.25));
-        let start = Instant::now();
-        for _ in 0..ROUNDS {
-            x.iter_mut().for_each(|x| *x = *x * a + b);
-        }
-        best = best.min(start.elapsed().as_secs_f64());
-        black_box(x);
-    }
-    48.0 * ROUNDS as f64 / best
 }
 
 struct Contender<'a> {
@@ -188,23 +149,22 @@ fn median(mut values: Vec<f64>) -> f64 {
 }
 
 fn main() {
-    let stream = [1, 2].map(stream_bandwidth);
-    let flops = arithmetic();
-    println!(
-        "limits: stream {:.1} GB/s on one thread, {:.1} on two; {:.1} Gflop/s on one core",
-        stream[0] * 1e-9,
-        stream[1] * 1e-9,
-        flops * 1e-9
-    );
+    let stream = [1, 2].map(bandwidth);
+    let flops = [1, 2].map(arithmetic);
+    for (what, unit, [one, two]) in [("stream", "GB/s", stream), ("arithmetic", "Gflop/s", flops)] {
+        println!(
+            "limit: {what} {:.1} {unit} on one thread, {:.1} on two, {:.2} ×",
+            one * 1e-9,
+            two * 1e-9,
+            two / one
+        );
+    }
     for (size, rows) in [("20k", 13), ("200k", 29)] {
         let network = network(rows);
         let (particles, bonds) = (network.particles.len(), network.bonds.len());
-        let per_bond = particles as f64 / bonds as f64;
-        // A bond's record and partner, 60 bytes; a particle's u, v, f (read and written), inverse mass and inertia.
-        let bytes = 60.0 + per_bond * (2.0 * 3.0 * 48.0 + 16.0);
-        let flops_per_bond = BOND_FLOPS + per_bond * PARTICLE_FLOPS;
+        let PerBond { bytes, operations } = PerBond::solid(&network);
         println!(
-            "\n{size}: {particles} particles, {bonds} bonds; {bytes:.0} bytes and {flops_per_bond:.0} products and sums per bond"
+            "\n{size}: {particles} particles, {bonds} bonds; {bytes:.0} bytes and {operations:.0} products and sums per bond"
         );
         let mut contenders = contenders(&network);
         let steps = UPDATES / bonds + 1;
@@ -234,14 +194,16 @@ fn main() {
                 contenders[c.against].name
             );
         }
-        let share = |threads: usize| {
-            median(turns.iter().map(|t| t[threads - 1]).collect()) * 1e6 * bytes / stream[threads - 1]
+        let share = |threads: usize, per_bond: f64, limit: [f64; 2]| {
+            let speed = median(turns.iter().map(|t| t[threads - 1]).collect()) * 1e6;
+            100.0 * speed * per_bond / limit[threads - 1]
         };
         println!(
-            "share of the stream bandwidth: {:.0} % on one thread, {:.0} % on two; of the arithmetic on one: {:.0} %",
-            100.0 * share(1),
-            100.0 * share(2),
-            100.0 * median(turns.iter().map(|t| t[0]).collect()) * 1e6 * flops_per_bond / flops
+            "share of the stream bandwidth: {:.0} % on one thread, {:.0} % on two; of the arithmetic: {:.0} % and {:.0} %",
+            share(1, bytes, stream),
+            share(2, bytes, stream),
+            share(1, operations, flops),
+            share(2, operations, flops)
         );
     }
 }

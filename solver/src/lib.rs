@@ -16,6 +16,7 @@ pub mod failure;
 pub mod fem;
 pub mod files;
 pub mod fracture_mechanics;
+pub mod limits;
 pub mod model;
 pub mod simulation;
 pub mod solve;

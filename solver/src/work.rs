@@ -16,31 +16,40 @@ pub struct Work {
     pub factor_nonzeros: u64,
     /// Triangular solves with a factor.
     pub solves: u64,
-    /// Non-zeros that all solves together went through: those of the factor, forward and back. Small and large factors of one run count for
-    /// what they are.
+    /// Non-zeros touched by these solves, forwards and backwards.
     #[serde(default)]
-    pub solve_nonzeros: u64,
+    pub solve_entries: u64,
     /// Pairs looked at by the contact search.
     pub contact_checks: u64,
+    /// Pairs looked at while random packings were pushed apart.
+    #[serde(default)]
+    pub packing_checks: u64,
     /// Time or load steps.
     pub steps: u64,
 }
 
 impl Work {
-    /// One number for work–precision diagrams: element and bond updates, and factor
-    /// non-zeros touched once by the factorisation and twice by each solve, all counted alike.
+    /// Counts a factorisation whose factor has this many non-zeros.
+    pub fn factored(&mut self, nonzeros: usize) {
+        self.factorisations += 1;
+        self.factor_nonzeros += nonzeros as u64;
+    }
+
+    /// Counts a solve with a factor of this many non-zeros, each touched on the way forwards and on the way back.
+    pub fn solved(&mut self, nonzeros: usize) {
+        self.solves += 1;
+        self.solve_entries += 2 * nonzeros as u64;
+    }
+
+    /// One number for work–precision diagrams: element and bond updates, factor non-zeros touched by factorisations and by
+    /// solves, and pairs looked at, all counted alike. That of a sum is the sum of those of its parts.
     pub fn total(&self) -> u64 {
         self.bond_updates
             + self.element_updates
             + self.factor_nonzeros
-            + self.solve_nonzeros
+            + self.solve_entries
             + self.contact_checks
-    }
-
-    /// Counts solves with a factor of `nonzeros` stored values.
-    pub fn count_solves(&mut self, solves: usize, nonzeros: usize) {
-        self.solves += solves as u64;
-        self.solve_nonzeros += 2 * (solves * nonzeros) as u64;
+            + self.packing_checks
     }
 }
 
@@ -51,8 +60,9 @@ impl AddAssign for Work {
         self.factorisations += other.factorisations;
         self.factor_nonzeros += other.factor_nonzeros;
         self.solves += other.solves;
-        self.solve_nonzeros += other.solve_nonzeros;
+        self.solve_entries += other.solve_entries;
         self.contact_checks += other.contact_checks;
+        self.packing_checks += other.packing_checks;
         self.steps += other.steps;
     }
 }
@@ -61,15 +71,19 @@ impl AddAssign for Work {
 mod tests {
     use super::*;
 
-    /// A small factor beside a large one does not make the solves of the large one cheaper.
+    /// A large factor that is used once and a small one that is used often: no mean of the two stands for both.
     #[test]
-    fn every_solve_counts_its_own_factor() {
-        let mut work = Work { factorisations: 2, factor_nonzeros: 1010, ..Work::default() };
-        work.count_solves(3, 1000);
-        work.count_solves(1, 10);
-        assert_eq!((work.solves, work.solve_nonzeros), (4, 6020));
-        let mut twice = work;
-        twice += work;
-        assert_eq!(twice.total(), 2 * 7030);
+    fn the_work_of_a_sum_is_the_sum_of_the_work() {
+        let of = |nonzeros: usize, solves: usize| {
+            let mut work = Work::default();
+            work.factored(nonzeros);
+            (0..solves).for_each(|_| work.solved(nonzeros));
+            work
+        };
+        let (large, small) = (of(100_000, 1), of(100, 1000));
+        assert_eq!([large.total(), small.total()], [300_000, 200_100]);
+        let mut both = large;
+        both += small;
+        assert_eq!(both.total(), large.total() + small.total());
     }
 }

@@ -168,3 +168,33 @@ fn bad_models_are_refused_with_the_place() {
         &["empty interface", "no points"],
     );
 }
+
+/// Error of the deflection of a cantilever, 20 elements long and `ratio` times as long as high, ν = 0.
+fn slender(ratio: f64) -> Result<f64, Error> {
+    let beam = continuum("beam", Space::Plane, Vec3::zeros(), Vec3::new(ratio, 1.0, 0.0), [20, 1, 0]);
+    // Half a metre thick, as all plane continua of these tests.
+    let section = 0.5 * beam.elasticity.young_pa;
+    let parts = vec![Part::Continuum(beam)];
+    let mut model =
+        Model { space: Space::Plane, parts, ties: Vec::new(), supports: Vec::new(), loads: Vec::new() };
+    prescribe(&mut model, |x| x.x < 1e-9, |_| Vec3::zeros());
+    let tip = model.parts[0].positions().iter().position(|x| x.x > ratio - 1e-9).unwrap();
+    model.loads.push(PointValue { part: 0, point: tip, component: 1, value: 1.0 });
+    let deflection = statics::solve(&model)?.displacement(&model, 0, tip).y;
+    let exact = ratio.powi(3) / (3.0 * section / 12.0) + ratio / (5.0 / 6.0 * 0.5 * section);
+    Ok(deflection / exact - 1.0)
+}
+
+#[test]
+fn a_slender_beam_is_solved_or_refused() {
+    // Twenty elements are 1 − 1/(4·20²) of a beam; the load on one corner, where its deflection is read, adds as much.
+    for ratio in [10.0, 100.0] {
+        let error = slender(ratio).unwrap();
+        assert!(error.abs() < 2e-3, "L/h = {ratio}: {error}");
+    }
+    // What rounding leaves of the load is larger than the load here, or what holds the beam is lost in it.
+    for ratio in [1e3, 3e3, 1e4, 1e5] {
+        let found = slender(ratio);
+        assert!(found.is_err(), "L/h = {ratio}: {found:?}");
+    }
+}

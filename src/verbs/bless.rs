@@ -17,7 +17,13 @@ pub fn bless(words: &Bless) -> Result<Exit> {
         format!("--recorded {file}: run this in Seam's own folder, or name a file whose first line is: schema = \"seam.recorded/1\"")
     })?;
     let references = references::verified(&words.references)?;
-    let cases = select::results(results::load(&words.from)?, &words.cases, &Filter::default(), None)?;
+    let mut cases = select::results(results::load(&words.from)?, &words.cases, &Filter::default(), None)?;
+    // What a study by itself leaves out would be taken for gone.
+    cases.retain(|case| !case.study_alone);
+    if cases.is_empty() {
+        let message = "a study by itself is not recorded; run its case too: seam run ID";
+        return Err(Unmeasured(message.to_owned()).into());
+    }
     let judged = results::judged(&cases, references, &old);
     if let Some(case) = judged.cases.iter().find(|case| case.unmeasured()) {
         let mend = "see `seam check`, and mend that first";

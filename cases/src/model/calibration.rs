@@ -104,7 +104,9 @@ pub fn packing(protocol: &Protocol, target: &Target, given: &BondRecipe, both: b
                 Specimen::random(&recipe, bonding, matter)
             })
             .collect::<Result<_>>()?;
-        find(&specimens, Reading::Isotropic, target, given, both)
+        let (found, mut work) = find(&specimens, Reading::Isotropic, target, given, both)?;
+        work.packing_checks += specimens.iter().map(|s| s.packing_checks).sum::<u64>();
+        Ok((found, work))
     })
 }
 

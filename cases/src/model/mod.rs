@@ -41,6 +41,8 @@ pub struct Built {
     pub notes: Vec<String>,
     /// Work of the calibrations, whether they were done now or remembered.
     pub calibration: Work,
+    /// Work of the random packings.
+    pub packing: Work,
 }
 
 impl Built {
@@ -142,7 +144,8 @@ fn assemble(file: &SceneFile) -> std::result::Result<Built, Refusal> {
     let laws = laws_among(&context.scene.failure)?;
     let laws_left_out = laws_among(&context.scene.left_out.failure)?;
     let model = Model { space: context.space, parts, ties, supports, loads };
-    Ok(Built { model, held_by, laws, laws_left_out, notes, calibration: context.calibration.get() })
+    let (calibration, packing) = (context.calibration.get(), context.packing.get());
+    Ok(Built { model, held_by, laws, laws_left_out, notes, calibration, packing })
 }
 
 fn check_size(scene: &Scene, part: &Part) -> std::result::Result<(), Fault> {
@@ -158,6 +161,12 @@ fn check_size(scene: &Scene, part: &Part) -> std::result::Result<(), Fault> {
     Ok(())
 }
 
+fn add(to: &Cell<Work>, work: Work) {
+    let mut sum = to.get();
+    sum += work;
+    to.set(sum);
+}
+
 /// What every builder needs.
 pub(crate) struct Context<'a> {
     pub file: &'a SceneFile,
@@ -167,6 +176,8 @@ pub(crate) struct Context<'a> {
     pub hypothesis: elasticity::Hypothesis,
     /// Work of the calibrations so far.
     pub calibration: Cell<Work>,
+    /// Work of the random packings so far.
+    pub packing: Cell<Work>,
 }
 
 impl<'a> Context<'a> {
@@ -179,14 +190,18 @@ impl<'a> Context<'a> {
             Hypothesis::Solid => elasticity::Hypothesis::Solid,
         };
         let space = scene.hypothesis.space();
-        Ok(Self { file, scene, values, space, hypothesis, calibration: Cell::default() })
+        let (calibration, packing) = Default::default();
+        Ok(Self { file, scene, values, space, hypothesis, calibration, packing })
     }
 
     /// Counts the work of one calibration.
     pub fn calibrated(&self, work: Work) {
-        let mut sum = self.calibration.get();
-        sum += work;
-        self.calibration.set(sum);
+        add(&self.calibration, work);
+    }
+
+    /// Counts the pairs that one packing looked at.
+    pub fn packed(&self, packing_checks: u64) {
+        add(&self.packing, Work { packing_checks, ..Work::default() });
     }
 
     /// Material of a body.

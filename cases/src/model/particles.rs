@@ -179,6 +179,7 @@ fn arrange(
     let packing = pack(&recipe, matter)?;
     let pairs = protocol.bonding.pairs(&packing.arrangement)?;
     let report = &packing.report;
+    context.packed(report.checks);
     notes.push(format!(
         "{key}: {} particles by {}, seed {}, solid fraction {:.3}, radii ±{:.0} %, {:.2} bonds per particle, largest overlap {:.1e}",
         report.particles,

@@ -82,6 +82,7 @@ fn through(
     drop(plan);
     drop(fills);
     built.calibration += context.calibration.get();
+    built.packing += context.packing.get();
     built.notes.extend(fillings.into_iter().flat_map(Filling::into_notes));
     outcome
 }

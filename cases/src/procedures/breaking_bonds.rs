@@ -1,8 +1,9 @@
-//! A notched network pulled apart: which bonds break, in which order and under which force, against YADE.
+//! A notched network loaded until bonds break: which ones, in which order and under which force, against YADE.
 
-use super::bond_for_bond_networks::Kit;
+use super::Setting;
+use super::breaking_specimens::{Specimen, bent, pulled};
 use super::compared::{exact, plot, series, within};
-use super::{Setting, rounding};
+use super::rounding;
 use crate::error::Result;
 use crate::export::Code;
 use crate::file::SceneFile;
@@ -10,33 +11,20 @@ use crate::result::{Agreement, CaseResult, Observation, Plot, Role};
 use crate::scene::Tier;
 use seam_references::Dataset;
 use seam_solver::cracking::{Cracking, Event, Options};
-use seam_solver::dem::bond::BondMaterial;
 use seam_solver::dem::network::Network;
 use seam_solver::failure::bond_stress::BondStress;
 use seam_solver::failure::forces::BondForce;
 use seam_solver::failure::strength::Strength;
 use seam_solver::failure::{Failure, FailureLaw, FailureRecipe, Place, Site};
-use seam_solver::model::{Model, Part};
+use seam_solver::model::Part;
 
-const NAME: &str = "breaking-bonds";
+/// Procedures of this family.
+pub(super) const PULLED: &str = "breaking-bonds";
+pub(super) const BENT: &str = "breaking-bend";
 
-/// Whether it is this procedure.
+/// Whether a procedure is of this family.
 pub(crate) fn answers(procedure: &str) -> bool {
-    procedure == NAME
-}
-
-/// What a code is given beside the network: which bonds may break, and how strong they are.
-pub(crate) struct Specimen {
-    /// The network; its grips are held and pulled, by one metre at load factor one.
-    pub model: Model,
-    /// Micro material of its bonds.
-    pub material: BondMaterial,
-    /// Which bonds may break.
-    pub breakable: Vec<bool>,
-    /// Tension at the rim of a bond that breaks it, in Pa.
-    pub strength_pa: f64,
-    /// Bonds to be broken.
-    pub events: usize,
+    [PULLED, BENT].contains(&procedure)
 }
 
 /// The specimen of a case.
@@ -48,40 +36,10 @@ pub(crate) fn specimen(file: &SceneFile) -> Result<Specimen> {
 }
 
 fn build(setting: &Setting) -> Result<Specimen> {
-    let kit = Kit::new(setting)?;
-    let spacing = setting.number("spacing_m")?;
-    let (columns, rows) = (setting.count("columns", 4)?, setting.count("rows", 3)?);
-    let shape = kit.triangular_shaken(columns, rows, setting.number("shake")?);
-    let notch_x = (0.5 * columns as f64 - 0.25) * spacing;
-    let network = notched(shape, notch_x, setting.number("notch_rows")? * 0.75f64.sqrt() * spacing);
-    let zone = setting.number("zone_m")?;
-    let x = |p: usize| network.particles.position[p].x;
-    let breakable =
-        network.bonds.ends.iter().map(|&[i, j]| (0.5 * (x(i) + x(j)) - notch_x).abs() < zone).collect();
-    Ok(Specimen {
-        model: kit.pulled(network),
-        material: kit.material(),
-        breakable,
-        strength_pa: setting.number("strength_Pa")?,
-        events: setting.count("events", 1)?,
-    })
-}
-
-/// Without the bonds that cross `x = at` below `depth` (m).
-fn notched(mut network: Network, at: f64, depth: f64) -> Network {
-    let position = &network.particles.position;
-    let crosses = |[i, j]: [usize; 2]| {
-        let (a, b) = (position[i], position[j]);
-        let t = (at - a.x) / (b.x - a.x);
-        (0.0..=1.0).contains(&t) && a.y + t * (b.y - a.y) < depth
-    };
-    let bonds = &mut network.bonds;
-    let kept: Vec<usize> = (0..bonds.len()).filter(|&b| !crosses(bonds.ends[b])).collect();
-    bonds.ends = kept.iter().map(|&b| bonds.ends[b]).collect();
-    bonds.radius = kept.iter().map(|&b| bonds.radius[b]).collect();
-    bonds.stiffness = kept.iter().map(|&b| bonds.stiffness[b]).collect();
-    bonds.weight = kept.iter().map(|&b| bonds.weight[b]).collect();
-    network
+    match setting.file.scene.procedure.as_str() {
+        BENT => bent(setting),
+        _ => pulled(setting),
+    }
 }
 
 /// Order of the bonds, force and displacement, and the path of both codes as a plot.
@@ -101,7 +59,7 @@ pub(super) fn run(setting: &Setting, result: &mut CaseResult) -> Result<()> {
             code: Code::Yade.title().to_owned(),
             version: data.provenance.version.clone(),
             date: data.provenance.date.to_string(),
-            model: "notched network, pulled apart".to_owned(),
+            model: specimen.about.to_owned(),
             compared: compared.to_owned(),
             same_model: true,
         }),
@@ -119,7 +77,7 @@ pub(super) fn run(setting: &Setting, result: &mut CaseResult) -> Result<()> {
         ),
     ));
     let tolerance = setting.number("tolerance")?;
-    let why = "YADE pulls slowly but in motion, and follows the particles as they move; its grips go 1e-4 beyond the point where a bond fails.";
+    let why = "YADE pulls slowly but in motion, and follows the particles as they move; what is moved goes 1e-4 beyond the point where a bond fails.";
     let (peak, at) = path.peak();
     let (their_peak, their_at) = theirs.peak();
     for (id, label, unit, own, yade) in [
@@ -169,7 +127,7 @@ impl Steps {
         Ok(Self::new(bonds, column("displacement", "m")?, column("force", "N")?, &after))
     }
 
-    /// What an event path is under displacement control: events at a smaller displacement happen where the grips are.
+    /// What an event path is under displacement control: events at a smaller displacement happen where it is.
     fn of_events(network: &Network, events: &[Event]) -> Self {
         let (mut held, mut steps) = (0.0f64, [const { Vec::new() }; 3]);
         let mut bonds = Vec::new();
@@ -237,7 +195,7 @@ fn crack(setting: &Setting, specimen: &Specimen, result: &mut CaseResult) -> Res
 }
 
 fn force_displacement(own: &[(f64, f64)], yade: &Steps) -> Plot {
-    let text = ["path", "Force on the grips", "displacement of the grips (m)", "force (N)"];
+    let text = ["path", "Force until bonds break", "displacement of what is moved (m)", "force (N)"];
     let lines = vec![
         series("Seam", Role::Model, own.iter().copied()),
         series("YADE", Role::Reference, yade.envelope.iter().copied()),

@@ -11,6 +11,7 @@ mod bond_for_bond_networks;
 mod bond_for_bond_static;
 mod bond_matrix;
 pub(crate) mod breaking_bonds;
+pub(crate) mod breaking_specimens;
 mod calculix;
 mod cantilever_eigenfrequencies;
 mod compared;
@@ -57,7 +58,8 @@ const REGISTRY: &[(&str, Procedure)] = &[
     (bond_for_bond::DYNAMIC, bond_for_bond_dynamic::run),
     (bond_for_bond::STATIC, bond_for_bond_static::run),
     ("bond-matrix", bond_matrix::run),
-    ("breaking-bonds", breaking_bonds::run),
+    (breaking_bonds::BENT, breaking_bonds::run),
+    (breaking_bonds::PULLED, breaking_bonds::run),
     ("bond-radius", hard::bond_radius::run),
     ("calculix", calculix::run),
     ("cantilever-eigenfrequencies", cantilever_eigenfrequencies::run),

@@ -1,5 +1,6 @@
 //! What accuracy costs: error against counted work and seconds.
 
+use schemars::JsonSchema;
 use seam_solver::work::Work;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -22,8 +23,33 @@ pub struct CostDiagram {
     /// Legend of the paper-like setting, if there is one.
     #[serde(default)]
     pub paper_like: Option<String>,
+    /// What is promised of the counted work, if something is.
+    #[serde(default)]
+    pub cheaper: Option<Cheaper>,
     /// One entry per setting.
     pub settings: Vec<CostSetting>,
+}
+
+/// The variant, and the legend, of the setting that others are compared with.
+pub const PAPER_LIKE: &str = "paper-like";
+
+impl CostDiagram {
+    /// Notes which of its settings is the paper-like one, if one is called so.
+    pub fn name_paper_like(&mut self) {
+        self.paper_like = self.settings.iter().map(|s| &s.name).find(|name| *name == PAPER_LIKE).cloned();
+    }
+}
+
+/// What is promised: at an accuracy, so many times less counted work than the setting `paper-like`.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Cheaper {
+    /// The accuracy, as a fraction.
+    pub error: f64,
+    /// Interval of the counted work of the paper-like setting over that of the cheapest other one with particles.
+    pub times: [f64; 2],
+    /// Why the interval is as wide as it is.
+    pub why: String,
 }
 
 /// One setting at several resolutions.
@@ -58,6 +84,9 @@ pub struct CostPoint {
     /// The part of [`Work::total`] that calibrations took.
     #[serde(default)]
     pub calibration_work: u64,
+    /// [`Work::total`] of the run alone, without packings and calibrations.
+    #[serde(default)]
+    pub run_work: u64,
     /// Median wall seconds, packing and calibration included. Not deterministic.
     pub seconds: f64,
     /// Shortest and longest run. Not deterministic.
@@ -72,6 +101,19 @@ pub struct CostPoint {
     /// Largest memory of a process that does this run alone, in MB, where it was measured. Not deterministic.
     #[serde(default)]
     pub memory_mb: Option<f64>,
+    /// What another code would have to do for the same answer, where it is known.
+    #[serde(default)]
+    pub elsewhere: Option<Elsewhere>,
+}
+
+/// Work of another code for the same answer, counted in what the race of codes counts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Elsewhere {
+    /// Of a code of bonded particles with explicit steps, on the same network.
+    BondUpdates(u64),
+    /// Unknowns of a code of finite elements, on the same mesh, solved once.
+    Unknowns(u64),
 }
 
 /// Cost over size at several levels, and what is promised of its exponent p in `cost ∝ sizeᵖ`.

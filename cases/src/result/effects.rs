@@ -21,6 +21,19 @@ pub struct EffectUse {
     /// What tells whether it may be left out, or that it came too late; `null` where nothing could tell.
     #[serde(default)]
     pub indicator: Option<Indicator>,
+    /// Variants of the scene that it was left out in; none for the scene itself.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub variants: Vec<String>,
+}
+
+impl EffectUse {
+    /// Its name, with the variants that it is about: `inertia (quasi-static)`.
+    pub fn place(&self) -> String {
+        match self.variants.as_slice() {
+            [] => self.name.clone(),
+            variants => format!("{} ({})", self.name, variants.join(", ")),
+        }
+    }
 }
 
 /// A number that tells whether an effect may be left out.

@@ -1,6 +1,7 @@
 //! Checks of quantities and studies: names that lead nowhere, studies that compare nothing.
 
 use super::check::{Checked, known};
+use super::check_cost;
 use super::check_peer;
 use super::check_probe::{is_history, zone};
 use super::probe::Read;
@@ -52,18 +53,7 @@ pub fn check(scene: &Scene, values: &Values) -> Checked {
             variants(scene, &part.to, &format!("{key}.parts[{i}].to"))?;
         }
     }
-    for (name, cost) in &scene.costs {
-        let key = format!("costs.{name}");
-        known(&cost.quantity, "quantity", scene.quantities.keys(), &format!("{key}.quantity"))?;
-        levels(&cost.levels, 1, &format!("{key}.levels"))?;
-        if let Some(reference) = &cost.reference {
-            variants(scene, &reference.variants, &format!("{key}.reference.variants"))?;
-            levels(&reference.levels, 1, &format!("{key}.reference.levels"))?;
-        }
-        for (setting, names) in &cost.settings {
-            variants(scene, names, &format!("{key}.settings.{setting}"))?;
-        }
-    }
+    check_cost::check(scene)?;
     for (name, growth) in &scene.growth {
         let key = format!("growth.{name}");
         variants(scene, &growth.variants, &format!("{key}.variants"))?;
@@ -103,7 +93,7 @@ pub fn variants(scene: &Scene, names: &[String], key: &str) -> Checked {
         .try_for_each(|(i, name)| known(name, "variant", scene.variants.keys(), &format!("{key}[{i}]")))
 }
 
-fn levels(levels: &Levels, least: usize, key: &str) -> Checked {
+pub(super) fn levels(levels: &Levels, least: usize, key: &str) -> Checked {
     if levels.values.len() < least {
         let message = format!("expected at least {least} levels, found {}", levels.values.len());
         return Err(Fault::new(format!("{key}.values"), message, "add levels"));

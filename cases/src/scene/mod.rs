@@ -6,6 +6,7 @@
 pub mod body;
 pub mod check;
 mod check_connection;
+mod check_cost;
 mod check_dynamics;
 mod check_failure;
 pub mod check_notched_beam;

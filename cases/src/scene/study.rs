@@ -8,7 +8,7 @@ use super::Tier;
 use super::de::De;
 use super::number::Number;
 use super::quantity::{Norm, Zone};
-use crate::result::Expected;
+use crate::result::{Cheaper, Expected};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -216,10 +216,16 @@ pub struct CostDeclaration {
     /// One reference for all settings; each setting's own `[reference]` model if not given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub reference: Option<ReferenceModel>,
+    /// Variants that every setting starts from.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub variants: Vec<String>,
     /// Resolutions.
     pub levels: Levels,
     /// Settings: legend and variants.
     pub settings: BTreeMap<String, Vec<String>>,
+    /// What is promised of the counted work against the setting `paper-like`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub cheaper: Option<Cheaper>,
 }
 
 /// `[ablations.NAME]`: one effect on and off, everything else alike, and what that is expected to show.

@@ -18,7 +18,7 @@ pub fn digest(file: &SceneFile) -> String {
     let parts = (
         (&scene.hypothesis, &scene.thickness_m, &scene.materials, &scene.bodies, &scene.sets),
         (&scene.ties, &scene.supports, &scene.loads, &scene.probes, &scene.reference),
-        (&scene.dynamics, &scene.switches),
+        (&scene.dynamics, &scene.switches, &scene.failure, &scene.cracking, &scene.contact),
     );
     let mut value = serde_json::to_value(parts).unwrap_or(Value::Null);
     evaluate(&mut value, file);

@@ -60,7 +60,9 @@ pub fn run(file: &SceneFile, tier: Tier, checkpoints: &Checkpoints) -> Result<Ru
     result.effects = effects::used(file, &solved);
     result.notes = [solved.built.notes.clone(), solved.solution.notes.clone(), peer_notes].concat();
     let convergence = convergence::all(&study)?;
-    result.quantities = quantities::all(&study, &solved, &convergence)?;
+    let (quantities, missing) = quantities::all(&study, &solved, &convergence)?;
+    result.quantities = quantities;
+    result.effects.extend(missing);
     result.convergence = convergence.into_values().map(|study| study.result).collect();
     result.curves = plots::all(&study, &solved)?;
     result.families = family::all(&study)?;

@@ -2,22 +2,28 @@
 
 use super::Study;
 use super::convergence::Refined;
+use super::effects;
 use super::evaluate::{self, Solved, distance};
 use super::reference::Reference;
 use crate::error::Result;
 use crate::file::SceneFile;
-use crate::result::{Agreement, Observation, ReferenceKind};
+use crate::result::{Agreement, EffectUse, Observation, ReferenceKind};
 use crate::scene::number::Number;
 use crate::scene::probe::Read;
 use crate::scene::quantity::{Accept, Norm, Quantity};
-use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
-/// All quantities of the scene; those of the same variants share one run.
-pub fn all(study: &Study, solved: &Solved, refined: &BTreeMap<String, Refined>) -> Result<Vec<Observation>> {
+/// All quantities of the scene; those of the same variants share one run. Beside them the effects that such a run left out although
+/// it calls for them, where a number of it is judged.
+pub fn all(
+    study: &Study,
+    solved: &Solved,
+    refined: &BTreeMap<String, Refined>,
+) -> Result<(Vec<Observation>, Vec<EffectUse>)> {
     let mut runs: BTreeMap<&[String], (SceneFile, Solved)> = BTreeMap::new();
-    let mut all = Vec::new();
+    let (mut all, mut missing, mut guarded) = (Vec::new(), Vec::new(), BTreeSet::new());
     let peer_of = |q: &Quantity| q.reference.as_ref().and_then(|r| r.peer.clone());
     let now = |q: &Quantity| {
         q.tiers.contains(&study.tier) && peer_of(q).is_none_or(|name| study.peers.contains_key(&name))
@@ -36,9 +42,13 @@ pub fn all(study: &Study, solved: &Solved, refined: &BTreeMap<String, Refined>) 
                 place.insert((file, solved))
             }
         };
+        if quantity.accept.is_some() && guarded.insert(&quantity.variants) {
+            let called_for = effects::used(file, solved).into_iter().filter(|effect| effect.called_for);
+            missing.extend(called_for.map(|e| EffectUse { variants: quantity.variants.clone(), ..e }));
+        }
         all.push(one(study, &Study { file, ..*study }, name, quantity, solved, refined)?);
     }
-    Ok(all)
+    Ok((all, missing))
 }
 
 /// A quantity of a variant of the scene `root`.

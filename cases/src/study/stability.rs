@@ -74,7 +74,7 @@ impl<'a> StabilityStudy<'a> {
     fn scene(&self) -> Result<CaseResult> {
         let start = std::time::Instant::now();
         let tally = Tally::default();
-        let mut result = head(self.file, self.tier);
+        let mut result = CaseResult { study_alone: true, ..head(self.file, self.tier) };
         let base = evaluate::solve(self.file, &tally)?;
         rounding::measure(self.file, &base, &tally, &mut result)?;
         trend::measure(&base, &mut result);

@@ -13,8 +13,7 @@ import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
-from ccx import bent_grid, cells, deck, run, version
-from reference import machine, write
+from ccx import bent_grid, cells, deck, hand_in, run
 
 YOUNG_PA, POISSON, FORCE_N = 70e9, 0.3, 1e6
 # Share of the length of each side by which nodes move; elements of the meshes below stay convex.
@@ -54,23 +53,18 @@ def generate(element, lengths, divisions):
     rest = (0.0,) * dimensions
     rows = [(*x, *forces.get(k, rest), *u[k]) for k, x in enumerate(nodes)]
     size = " × ".join(map(str, lengths)) + " m"
-    write(
+    hand_in(
+        __file__,
         f"calculix-{name}",
         "calculix",
         columns,
         rows,
-        inputs={f"calculix-{name}.inp": text.encode()},
-        repeat=(change, "the same input run twice on one machine with one thread; numbers as printed, 7 digits"),
-        kind="calculix",
-        about=f"Linear statics of a cantilever {size}, {' × '.join(map(str, divisions))} elements {element}, nodes "
+        change,
+        {f"calculix-{name}.inp": text},
+        f"Linear statics of a cantilever {size}, {' × '.join(map(str, divisions))} elements {element}, nodes "
         f"with x fastest; E = {YOUNG_PA:g} Pa, ν = {POISSON:g}"
         + (", plane strain, thickness 1 m" if dimensions == 2 else "")
         + "; all displacements zero at x = 0.",
-        source="Run for Seam, from an input that the generator writes and Seam has no part in",
-        code="CalculiX CrunchiX (ccx), the Debian package calculix-ccx",
-        version=version(),
-        command="python3 references/generators/calculix/cantilever.py",
-        machine=machine(),
     )
 
 

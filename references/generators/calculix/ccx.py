@@ -1,4 +1,4 @@
-"""Runs CalculiX on a bar of quadrilaterals or hexahedra and reads the displacements of its nodes.
+"""Runs CalculiX on a bar of quadrilaterals or hexahedra, reads the displacements of its nodes, and hands in references.
 
 Needs the program ccx, in Debian: apt-get install calculix-ccx
 """
@@ -12,6 +12,8 @@ import tempfile
 import time
 from itertools import product
 from pathlib import Path
+
+from reference import machine, write
 
 # One thread: the order of additions, and with it the last bits, stays the same.
 ENVIRONMENT = dict(os.environ, OMP_NUM_THREADS="1", CCX_NPROC_STIFFNESS="1", CCX_NPROC_EQUATION_SOLVER="1")
@@ -35,6 +37,25 @@ def version():
     if found is None:
         sys.exit("ccx -v names no version")
     return found.group(1)
+
+
+def hand_in(script, case, name, columns, rows, change, inputs, about):
+    """Writes a reference of CalculiX; `change` is how far a second run of the same inputs {file: text} differs."""
+    write(
+        case,
+        name,
+        columns,
+        rows,
+        inputs={file: text.encode() for file, text in inputs.items()},
+        repeat=(change, "the same input run twice on one machine with one thread; numbers as printed, 7 digits"),
+        kind="calculix",
+        about=about,
+        source="Run for Seam, from an input that the generator writes and Seam has no part in",
+        code="CalculiX CrunchiX (ccx), the Debian package calculix-ccx",
+        version=version(),
+        command=f"python3 references/generators/calculix/{Path(script).name}",
+        machine=machine(),
+    )
 
 
 def bent_grid(lengths, divisions, bend):

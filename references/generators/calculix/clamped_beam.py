@@ -15,8 +15,7 @@ from itertools import product
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
-from ccx import deck, run, version
-from reference import machine, write
+from ccx import deck, hand_in, run
 
 LENGTH_M, HEIGHT_M, THICKNESS_M = 0.9, 0.1, 0.1
 YOUNG_PA, POISSON, FORCE_N = 30e9, 0.2, 1000.0
@@ -98,24 +97,18 @@ def generate(element, rows):
         "uy": ("m", "deflection, the finer mesh"),
         "uy_coarse": ("m", "deflection, half as many elements each way"),
     }
-    write(
+    hand_in(
+        __file__,
         CASE,
         name,
         columns,
         [(x, u, c) for (x, u), (_, c) in zip(fine, coarse)],
-        inputs={f"{name}.inp": text.encode(), f"{name}-coarse.inp": coarse_text.encode()},
-        repeat=(change, "the same input run twice on one machine with one thread; numbers as printed, 7 digits"),
-        kind="calculix",
-        about=f"Mid-line of the clamped beam {LENGTH_M} × {HEIGHT_M} × {THICKNESS_M} m under {FORCE_N:g} N, {element}, {rows} "
+        change,
+        {f"{name}.inp": text, f"{name}-coarse.inp": coarse_text},
+        f"Mid-line of the clamped beam {LENGTH_M} × {HEIGHT_M} × {THICKNESS_M} m under {FORCE_N:g} N, {element}, {rows} "
         f"elements across the height, E = {YOUNG_PA:g} Pa, ν = {POISSON:g}"
         + (f", a strip {STRIP_M:g} m thick under its share of the force" if element == "CPS8" else "")
-        + f"; from half as many it moved by {refined:.1e} of the "
-        "largest deflection.",
-        source="Run for Seam, from an input that the generator writes and Seam has no part in",
-        code="CalculiX CrunchiX (ccx), the Debian package calculix-ccx",
-        version=version(),
-        command="python3 references/generators/calculix/clamped_beam.py",
-        machine=machine(),
+        + f"; from half as many it moved by {refined:.1e} of the largest deflection.",
     )
 
 

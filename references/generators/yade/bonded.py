@@ -9,7 +9,8 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
-from exported import network, rotation_vector
+from exported import difference, files, network, rotation_vector
+from reference import machine, write
 from yade import O, config
 from yade.utils import createInteraction, sphere
 from yade.wrapper import (
@@ -75,6 +76,17 @@ def add_forces(net, factor):
         O.forces.addF(particle, tuple(factor * f for f in force))
 
 
+def unbalanced(net):
+    """Largest force, or moment over radius, on what is free to move."""
+
+    def of(particle):
+        held, radius = net.held.get(particle, {}), net.particles[particle].radius
+        size = lambda vector, letter: sum(v * v for v, axis in zip(vector, "xyz") if letter + axis not in held) ** 0.5
+        return max(size(O.forces.f(particle), "u"), size(O.forces.t(particle), "r") / radius)
+
+    return max(map(of, range(len(net.particles))))
+
+
 def motion(particle):
     """Displacements and rotations of a particle, six numbers."""
     state = O.bodies[particle].state
@@ -85,3 +97,22 @@ def motion(particle):
 
 def version():
     return config.version
+
+
+def hand_in(folder, case, name, columns, rows, again, about):
+    """Writes a reference of YADE; `again` are the rows of a second run."""
+    write(
+        case,
+        name,
+        columns,
+        rows,
+        inputs=files(folder),
+        repeat=(difference(rows, again), "the same input run twice in one process with one thread (-j1)"),
+        kind="yade",
+        about=about,
+        source="Run for Seam, from a network that Seam exported; YADE's own contact law and integrator",
+        code="YADE, the Debian package yade; Law2_ScGeom6D_CohFrictPhys_CohesionMoment",
+        version=version(),
+        command=f"seam references regenerate --with yade {case}/{name} --accept",
+        machine=machine(),
+    )

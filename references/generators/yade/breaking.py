@@ -1,10 +1,10 @@
-"""Pulls an exported network apart in YADE, bond by bond: which bond breaks, where the grips are, and the force on them.
+"""Loads an exported network in YADE, bond by bond: which bond breaks, how far what is moved has come, and the force on it.
 
 yade -n -x -j1 references/generators/yade/breaking.py FOLDER CASE NAME
 
 YADE's own strength looks at normal and shear force only. Here a bond breaks by the tension at its rim, bending included:
-σ = N/A + r M/I, M being the larger of the moments at its two ends. The grips move slowly and stop; a bond is judged when
-all is at rest. The one with the largest σ over strength goes first, and the grips stay until no bond is above its strength.
+σ = N/A + r M/I, M being the larger of the moments at its two ends. What is moved moves slowly and stops; a bond is judged when
+all is at rest. The one with the largest σ over strength goes first, and nothing is moved until no bond is above its strength.
 """
 
 import math
@@ -14,26 +14,28 @@ from pathlib import Path
 # YADE runs this file by its own __file__.
 sys.path.insert(0, str(Path(sys.argv[0]).resolve().parent))
 
-from bonded import O, build, version
-from exported import difference, files, table
-from reference import machine, write
+from bonded import O, build, hand_in, unbalanced
+from exported import table
 from yade import Vector3
 
 DAMPING = 0.3
 STEPS_OF_A_MOVE = 2000
 STEPS_BETWEEN_LOOKS = 500
 MOST_STEPS = 5_000_000
-# The grips go this share beyond the point where the next bond is expected to fail.
+# What is moved goes this share beyond the point where the next bond is expected to fail.
 BEYOND = 1e-4
-# The first move, as a share of the length of a bond: far below failure.
-FIRST_MOVE = 1e-7
+# The first move, as a share of the length of a bond: far below failure, and far above the rounding of positions.
+FIRST_MOVE = 1e-5
 
 
 def move():
-    """Velocities of the grips; nothing else may be touched between steps, for shear is integrated from velocities."""
+    """Velocities of what is moved; nothing else may be touched between steps, for shear is integrated from velocities."""
     velocity = speed if O.iter < until else 0.0
-    for particle, direction in pulled.items():
-        O.bodies[particle].state.vel = direction * velocity
+    for particle, axis, way in moved:
+        state = O.bodies[particle].state
+        vel = Vector3(state.vel)
+        vel[axis] = way * velocity
+        state.vel = vel
 
 
 def advance(distance):
@@ -44,13 +46,8 @@ def advance(distance):
 
 
 def force():
-    """On the grips, along their motion."""
-    return -sum(O.forces.f(particle).dot(direction) for particle, direction in pulled.items())
-
-
-def unbalanced():
-    radius = net.particles[0].radius
-    return max(max(O.forces.f(i).norm(), O.forces.t(i).norm() / radius) for i in free)
+    """On what is moved, along its motion."""
+    return -sum(O.forces.f(particle)[axis] * way for particle, axis, way in moved)
 
 
 def settle():
@@ -60,7 +57,7 @@ def settle():
         if O.iter > MOST_STEPS:
             sys.exit(f"not at rest after {O.iter} steps")
         O.run(STEPS_BETWEEN_LOOKS, True)
-        quiet = quiet + 1 if unbalanced() <= net.run["residual"] * abs(force()) else 0
+        quiet = quiet + 1 if unbalanced(net) <= net.run["residual"] * abs(force()) else 0
 
 
 def demand(bond):
@@ -79,12 +76,11 @@ def worst():
 
 def tear(folder):
     """One row for each bond, in the order they break."""
-    global net, free, pulled, strength, alive, speed, until
+    global net, moved, strength, alive, speed, until
     speed, until = 0.0, 0
     net = build(folder, DAMPING, "move()")
-    held = net.held
-    free = [i for i in range(len(net.particles)) if i not in held]
-    pulled = {p: Vector3(*(parts.get("u" + axis, 0.0) for axis in "xyz")) for p, parts in held.items() if any(parts.values())}
+    parts = ((particle, "xyz".index(name[1]), way) for particle, held in net.held.items() for name, way in held.items())
+    moved = [part for part in parts if part[2]]
     strength = {int(row["bond"]): row["strength_Pa"] for row in table(Path(folder) / "strengths.csv")}
     for number, bond in enumerate(net.bonds):
         bond.number = number
@@ -111,26 +107,20 @@ def tear(folder):
 folder, case, name = sys.argv[1:4]
 rows, steps = tear(folder)
 again, _ = tear(folder)
-write(
+hand_in(
+    folder,
     case,
     name,
     {
         "i": ("1", "first particle of the bond that breaks, as in bonds.csv"),
         "j": ("1", "second particle of it"),
-        "displacement": ("m", "displacement of the grips"),
-        "force": ("N", "force on the grips, before"),
-        "force_after": ("N", "force on the grips after it, at the same displacement"),
+        "displacement": ("m", "displacement of what is moved"),
+        "force": ("N", "force on it, before"),
+        "force_after": ("N", "force on it after the break, at the same displacement"),
     },
     rows,
-    inputs=files(folder),
-    repeat=(difference(rows, again), "the same input run twice in one process with one thread (-j1)"),
-    kind="yade",
-    about=f"The first {len(rows)} bonds that break in a notched network of {len(net.particles)} particles and {len(net.bonds)} "
-    f"bonds, pulled slowly with local damping {DAMPING}, {steps} steps; at rest to {net.run['residual']:.0e} of the force "
-    "on the grips whenever a bond is judged.",
-    source="Run for Seam, from a network that Seam exported; YADE's own contact law and integrator, the criterion in the script",
-    code="YADE, the Debian package yade; Law2_ScGeom6D_CohFrictPhys_CohesionMoment",
-    version=version(),
-    command=f"seam references regenerate --with yade {case}/{name} --accept",
-    machine=machine(),
+    again,
+    f"The first {len(rows)} bonds that break in a notched network of {len(net.particles)} particles and {len(net.bonds)} "
+    f"bonds, loaded slowly with local damping {DAMPING}, {steps} steps; at rest to {net.run['residual']:.0e} of the force "
+    "on what is moved whenever a bond is judged, by the criterion in the script.",
 )

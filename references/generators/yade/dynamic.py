@@ -9,9 +9,8 @@ from pathlib import Path
 # YADE runs this file by its own __file__.
 sys.path.insert(0, str(Path(sys.argv[0]).resolve().parent))
 
-from bonded import O, add_forces, build, motion, version
-from exported import difference, files, history_columns, how_scaled, kept, load_share, scaled
-from reference import machine, write
+from bonded import O, add_forces, build, hand_in, motion
+from exported import history_columns, how_scaled, kept, load_share, scaled
 
 
 def look_and_load():
@@ -40,19 +39,13 @@ columns = history_columns(net.plane)
 if several:
     columns = {"t": columns.pop("t"), "particle": ("1", "particle, as in particles.csv"), **columns}
 what = f"{len(net.run['watched'])} particles" if several else f"particle {net.run['watched']}"
-write(
+hand_in(
+    folder,
     case,
     name,
     columns,
     first,
-    inputs=files(folder),
-    repeat=(difference(first, again), "the same input run twice in one process with one thread (-j1)"),
-    kind="yade",
-    about=f"Motion of {what} of {len(net.particles)} particles and {len(net.bonds)} bonds, "
-    f"{how_scaled(net.run)}undamped, {net.run['steps']} steps of {net.run['step_s']} s.",
-    source="Run for Seam, from a network that Seam exported; YADE's own contact law and integrator",
-    code="YADE, the Debian package yade; Law2_ScGeom6D_CohFrictPhys_CohesionMoment",
-    version=version(),
-    command=f"seam references regenerate --with yade {case}/{name} --accept",
-    machine=machine(),
+    again,
+    f"Motion of {what} of {len(net.particles)} particles and {len(net.bonds)} bonds, {how_scaled(net.run)}undamped, "
+    f"{net.run['steps']} steps of {net.run['step_s']} s.",
 )

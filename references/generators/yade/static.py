@@ -3,67 +3,74 @@
 yade -n -x -j1 references/generators/yade/static.py FOLDER CASE NAME
 """
 
+import math
 import sys
 from pathlib import Path
 
 # YADE runs this file by its own __file__.
 sys.path.insert(0, str(Path(sys.argv[0]).resolve().parent))
 
-from bonded import O, add_forces, build, motion, version
-from exported import difference, field_columns, files, how_scaled, kept, largest_force, load_share, network, scaled
-from reference import machine, write
+from bonded import O, add_forces, build, hand_in, motion, unbalanced
+from exported import field_columns, how_scaled, kept, largest_force, load_share, scaled
 
-# Cundall's local damping, unless the run asks for more; it acts on velocities inside the integrator and leaves the shear whole.
-DAMPING = 0.3
-STEPS_BETWEEN_LOOKS = 1000
+STEPS_BETWEEN_LOOKS = 50
+# The step is 0.7 of the critical one: the fastest mode takes more than four steps, and damping every other one misses none.
+STEPS_BETWEEN_DAMPING = 2
 MOST_STEPS = 2_000_000
 
 
-def residual(net, free, radius):
-    """Largest unbalanced force or moment over radius of what is free, relative to the largest load."""
+def damp_and_load():
+    """Mass-proportional damping, on velocities before the particles move: the bonds see the velocities that moved them."""
+    if keep < 1.0 and O.iter % STEPS_BETWEEN_DAMPING == 0:
+        for state in free:
+            state.vel *= keep
+            state.angVel *= keep
+    add_forces(net, load_share(net.run))
 
-    def of(particle):
-        held = net.held.get(particle, {})
-        size = lambda vector, letter: sum(v * v for v, axis in zip(vector, "xyz") if letter + axis not in held) ** 0.5
-        return max(size(O.forces.f(particle), "u"), size(O.forces.t(particle), "r") / radius)
 
-    return max(map(of, free)) / (load_share(net.run) * largest_force(net.forces))
+def quarter_period():
+    """Steps until the kinetic energy of the undamped start peaks: a quarter of the period of the slowest mode."""
+    energy = highest = 0.0
+    while energy >= 0.9 * highest:
+        O.run(STEPS_BETWEEN_LOOKS, True)
+        energy = sum(state.mass * state.vel.squaredNorm() for state in free)
+        if energy >= highest:
+            highest, quarter = energy, O.iter
+    return quarter
 
 
 def relax(folder):
-    global net, damping
-    run = network(folder).run
-    damping = run.get("damping", DAMPING)
-    net = build(folder, damping, f"add_forces(net, {load_share(run)!r})")
-    free = sorted(set(range(len(net.particles))) - set(net.clamped))
-    radius = net.particles[0].radius
-    quiet = 0
-    # Twice in a row: one look may fall on a moment when all forces pass through zero.
-    while quiet < 2:
-        if O.iter >= MOST_STEPS:
-            sys.exit(f"not at rest after {O.iter} steps: residual {residual(net, free, radius):.1e}")
-        O.run(STEPS_BETWEEN_LOOKS, True)
-        quiet = quiet + 1 if residual(net, free, radius) <= net.run["residual"] else 0
+    """At the critical rate of the slowest mode, 2ω, until displacements no longer change within its period."""
+    global net, free, keep
+    keep = 1.0
+    net = build(folder, 0.0, "damp_and_load()")
+    bodies = [body.state for body in O.bodies]
+    free = [bodies[p] for p in range(len(bodies)) if p not in set(net.clamped)]
+    quarter = quarter_period()
+    keep = math.exp(-STEPS_BETWEEN_DAMPING * math.pi / quarter)
+    change = math.inf
+    while change > net.run["settled"]:
+        if O.iter > MOST_STEPS:
+            sys.exit(f"not at rest after {O.iter} steps: displacements still change by {change:.1e}")
+        before = [state.pos for state in bodies]
+        O.run(4 * quarter, True)
+        largest = max((state.pos - state.refPos).norm() for state in bodies)
+        change = max((state.pos - at).norm() for state, at in zip(bodies, before)) / largest
     rows = [kept(motion(i), net.plane) for i in range(len(net.particles))]
-    return scaled(rows, net.run), O.iter, residual(net, free, radius)
+    return scaled(rows, net.run), O.iter, unbalanced(net) / (load_share(net.run) * largest_force(net.forces))
 
 
 folder, case, name = sys.argv[1:4]
 rows, steps, reached = relax(folder)
 again, _, _ = relax(folder)
-write(
+hand_in(
+    folder,
     case,
     name,
     field_columns(net.plane),
     rows,
-    inputs=files(folder),
-    repeat=(difference(rows, again), "the same input run twice in one process with one thread (-j1)"),
-    kind="yade",
-    about=f"Equilibrium of {len(net.particles)} particles and {len(net.bonds)} bonds, in the order of particles.csv; "
-    f"{how_scaled(net.run)}local damping {damping}, {steps} steps, unbalanced forces at last {reached:.1e} of the largest load.",
-    source="Run for Seam, from a network that Seam exported; YADE's own contact law and integrator",
-    code="YADE, the Debian package yade; Law2_ScGeom6D_CohFrictPhys_CohesionMoment",
-    version=version(),
-    command=f"seam references regenerate --with yade {case}/{name} --accept",
-    machine=machine(),
+    again,
+    f"Equilibrium of {len(net.particles)} particles and {len(net.bonds)} bonds, in the order of particles.csv; "
+    f"{how_scaled(net.run)}viscous damping, {steps} steps, until displacements change by less than {net.run['settled']:.0e} in "
+    f"a period; unbalanced forces at last {reached:.1e} of the largest load.",
 )

@@ -7,6 +7,8 @@ use seam_cases::result::{CostPoint, CostSetting};
 pub enum Cost {
     /// `Work::total`: the same in every run.
     Work,
+    /// `Work::total` of the run alone, packings and calibrations left out.
+    Run,
     /// Wall seconds: not deterministic.
     Seconds,
 }
@@ -16,6 +18,7 @@ impl Cost {
     pub fn of(self, p: &CostPoint) -> f64 {
         match self {
             Cost::Work => p.work.total() as f64,
+            Cost::Run => p.run_work as f64,
             Cost::Seconds => p.seconds,
         }
     }

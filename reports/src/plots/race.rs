@@ -4,6 +4,7 @@ use super::chart::{Axis, Chart, HEIGHT, LEFT, Layer};
 use super::{Figure, Ink, LegendEntry};
 use crate::format::{count, significant};
 use crate::race::{Lane, Race, scaled, unit};
+use std::collections::BTreeSet;
 
 /// On some number of threads: a line for each code, with the range of the rounds; `None` where nothing was run.
 pub fn rates(race: &Race, what: &str, threads: f64) -> Option<Figure> {
@@ -35,29 +36,42 @@ pub fn rates(race: &Race, what: &str, threads: f64) -> Option<Figure> {
     let title = format!("{done}, {}", count(threads as usize, "thread"));
     let description = format!("{} over {size}", unit(what));
     let chart = Chart { title, description, x, y, layers, height: HEIGHT, left: LEFT };
-    let others: Vec<&Lane> = lanes().filter(|lane| !lane.is_seam()).collect();
-    Some(chart.figure(legend, note(&others)))
+    let [limits, others] = [true, false]
+        .map(|limit| lanes().filter(|lane| lane.is_limit() == limit && !lane.is_seam()).collect::<Vec<_>>());
+    let notes = [slower(&others), shares(&limits)].concat();
+    Some(chart.figure(legend, notes.join(" ")))
 }
 
 /// `YADE takes 9 to 12 times as long as Seam, 3 to 4 times as long as with finite rotations.`
-fn note(others: &[&Lane]) -> String {
-    let mut titles: Vec<&str> = others.iter().map(|lane| lane.title()).collect();
-    titles.sort_unstable();
-    titles.dedup();
-    let range = |title: &str, ratio: fn(&Lane) -> Option<f64>| {
-        let all = others.iter().filter(|lane| lane.title() == title);
-        let all = all.filter_map(|lane| ratio(lane));
-        let [lo, hi] = all.fold([f64::INFINITY, 0.0], |[lo, hi]: [f64; 2], r| [lo.min(r), hi.max(r)]);
-        let words = |r: f64| significant(r, 2);
-        let same = words(lo) == words(hi);
-        lo.is_finite().then(|| if same { words(lo) } else { format!("{} to {}", words(lo), words(hi)) })
-    };
-    let sentence = |title: &&str| {
-        let seam = range(title, |lane| Some(lane.times_seam))?;
-        let finite = range(title, |lane| lane.times_finite);
+fn slower(others: &[&Lane]) -> Vec<String> {
+    let sentence = |title: &str, own: &[&&Lane]| {
+        let seam = range(own.iter().map(|lane| lane.times_seam), |r| significant(r, 2))?;
+        let finite = range(own.iter().filter_map(|lane| lane.times_finite), |r| significant(r, 2));
         let finite =
             finite.map_or(String::new(), |f| format!(", {f} times as long as with finite rotations"));
         Some(format!("{title} takes {seam} times as long as Seam{finite}."))
     };
-    titles.iter().filter_map(sentence).collect::<Vec<_>>().join(" ")
+    by_title(others, sentence)
+}
+
+/// `Limit of memory: Seam's speed is 40 to 45 % of it.`
+fn shares(limits: &[&Lane]) -> Vec<String> {
+    by_title(limits, |title, own| {
+        let share = range(own.iter().map(|lane| 100.0 * lane.times_seam), |r| significant(r, 2))?;
+        Some(format!("{title}: Seam's speed is {share} % of it."))
+    })
+}
+
+/// One sentence for the lanes of each title.
+fn by_title(lanes: &[&Lane], sentence: impl Fn(&str, &[&&Lane]) -> Option<String>) -> Vec<String> {
+    let titles: BTreeSet<&str> = lanes.iter().map(|lane| lane.title()).collect();
+    let own = |title: &str| lanes.iter().filter(|lane| lane.title() == title).collect::<Vec<_>>();
+    titles.into_iter().filter_map(|title| sentence(title, &own(title))).collect()
+}
+
+/// `9 to 12`, or the one number there is; `None` without numbers.
+fn range(numbers: impl Iterator<Item = f64>, words: impl Fn(f64) -> String) -> Option<String> {
+    let [lo, hi] = numbers.fold([f64::INFINITY, 0.0], |[lo, hi]: [f64; 2], r| [lo.min(r), hi.max(r)]);
+    let (low, high) = (words(lo), words(hi));
+    lo.is_finite().then(|| if low == high { low } else { format!("{low} to {high}") })
 }

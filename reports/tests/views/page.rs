@@ -56,7 +56,12 @@ fn other_codes_have_sections_of_their_own() {
         times_finite: (threads == 1.0).then_some(seconds / 3.0),
         ..Lane::default()
     };
-    let lanes = vec![lane("seam", 1.0, 1.0), lane("seam-finite", 1.0, 3.0), lane("yade", 1.0, 12.0)];
+    let lanes = vec![
+        lane("seam", 1.0, 1.0),
+        lane("seam-finite", 1.0, 3.0),
+        lane("yade", 1.0, 12.0),
+        lane("bandwidth", 1.0, 0.4),
+    ];
     results.race = Some(Race { recorded: true, lanes, ..Race::default() });
     let page = show(&results);
     assert!(sections.iter().all(|id| page.contains(id)));
@@ -64,6 +69,7 @@ fn other_codes_have_sections_of_their_own() {
         assert!(page.contains(part), "{part}");
     }
     assert!(page.contains("YADE takes 12 times as long as Seam, 4 times as long as with finite rotations."));
+    assert!(page.contains("Limit of memory: Seam&#x27;s speed is 40\u{a0}% of it."));
 }
 
 #[test]

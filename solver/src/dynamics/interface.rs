@@ -53,8 +53,7 @@ impl Interface {
         }
         let h = SymmetricMatrix::from_triplets(rows.len(), &h);
         let factor = timed(Stage::Factorisation, || Factor::new(&h, Ordering::MinimumDegree))?;
-        work.factorisations += 1;
-        work.factor_nonzeros += factor.nonzeros() as u64;
+        work.factored(factor.nonzeros());
         Ok(Interface { inverse_mass, scale, factor: Some(factor) })
     }
 
@@ -100,7 +99,7 @@ impl Interface {
             scaled.clear();
             scaled.extend(rows.iter().zip(&self.scale).map(|(row, s)| s * row_product(&row.terms, v)));
             factor.solve_in_place(scaled);
-            work.count_solves(1, factor.nonzeros());
+            work.solved(factor.nonzeros());
             for ((row, s), (z, multiplier)) in
                 rows.iter().zip(&self.scale).zip(scaled.iter().zip(multipliers.iter_mut()))
             {

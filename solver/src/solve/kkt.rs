@@ -24,8 +24,13 @@ const DELTA: f64 = 1e-15;
 pub const EPSILONS: [f64; 2] = [1e-7, 1e-11];
 /// Refinement stops when the residual no longer halves, at the latest after this many steps.
 const MOST_REFINEMENTS: usize = 12;
-/// A solution with a larger relative residual is refused.
+/// A solution with a larger relative residual is refused, unless rounding alone keeps it there.
 pub const LARGEST_RESIDUAL: f64 = 1e-9;
+/// Such a solution is taken if one more correction moves it by no more than this, relative to its largest unknown: where
+/// `|K||u|` is a million times the load, as in slender beams, the residual says less than the correction does.
+pub const LARGEST_CORRECTION: f64 = 1e-6;
+/// What rounding leaves of a sum of terms, in units of the last place of the largest sum of their magnitudes.
+const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
 /// What the elimination order is made from.
 pub struct Layout<'a> {
@@ -106,8 +111,7 @@ impl Kkt {
         let matrix = SymmetricMatrix::from_triplets(n + rows.len(), &scaled);
         drop(scaled);
         let factor = timed(Stage::Factorisation, || factorise(&matrix, layout))?;
-        work.factorisations += 1;
-        work.factor_nonzeros += factor.nonzeros() as u64;
+        work.factored(factor.nonzeros());
         Ok(Kkt { stiffness, rows: scaled_rows, unknown_scale, row_scale, factor })
     }
 
@@ -160,7 +164,7 @@ impl Kkt {
             x.iter_mut().zip(&r).for_each(|(x, d)| *x += d);
         }
         let (residual, x) = best;
-        if residual > LARGEST_RESIDUAL {
+        if residual > LARGEST_RESIDUAL && !self.is_rounding(&x, &f, &g, beside, work) {
             let message = format!(
                 "the residual stays at {residual:.1e} of the forces, above {LARGEST_RESIDUAL:.0e}; \
                  look for a mechanism, contradicting supports or an extreme stiffness contrast"
@@ -172,6 +176,22 @@ impl Kkt {
             multipliers: x[n..].iter().zip(&self.row_scale).map(|(x, s)| x * s).collect(),
             residual,
         })
+    }
+
+    /// Whether rounding alone leaves this residual, and leaves the solution good all the same.
+    ///
+    /// With `r = f − K u − Bᵀλ` at the rounding of its terms, `|r| ≤ c eps |K||u|` (Oettli and Prager 1964), the next
+    /// correction is what rounding does to the solution (Skeel 1980): it has to be small beside the solution.
+    fn is_rounding(&self, x: &[f64], f: &[f64], g: &[f64], beside: [f64; 2], work: &mut Work) -> bool {
+        let n = f.len();
+        let (mut r, _) = self.residual(x, f, g, beside);
+        let motion =
+            self.rows.iter().flatten().fold(norm(g).max(beside[1]), |m, &(i, b)| m.max((b * x[i]).abs()));
+        let forces_at_rounding =
+            norm(&r[..n]) <= ROUNDING * norm(&self.stiffness.multiply_magnitudes(&x[..n]));
+        let rows_hold = norm(&r[n..]) <= LARGEST_RESIDUAL * motion;
+        self.correct(&mut r, work);
+        forces_at_rounding && rows_hold && norm(&r[..n]) <= LARGEST_CORRECTION * norm(&x[..n])
     }
 
     /// Residual of the true scaled system, and its size relative to the forces and displacements that it
@@ -208,7 +228,7 @@ impl Kkt {
             self.augment(&mut x[from..]);
         }
         self.factor.solve_columns(&mut x, sides.len());
-        work.count_solves(sides.len(), self.factor.nonzeros());
+        sides.iter().for_each(|_| work.solved(self.factor.nonzeros()));
         let unscaled = |x: &[f64], scale: &[f64]| x.iter().zip(scale).map(|(x, s)| x * s).collect();
         let columns = x.chunks_exact((n + m).max(1));
         columns
@@ -228,7 +248,7 @@ impl Kkt {
     fn correct(&self, r: &mut [f64], work: &mut Work) {
         self.augment(r);
         self.factor.solve_in_place(r);
-        work.count_solves(1, self.factor.nonzeros());
+        work.solved(self.factor.nonzeros());
     }
 
     /// The softest motion and its stiffness relative to a unit diagonal: at the rounding floor it is a mechanism.
@@ -240,7 +260,7 @@ impl Kkt {
         let mut z: Vec<f64> = (0..n).map(|i| (1.0 + i as f64 * 0.754_877_666).sin()).collect();
         z.resize(n + self.rows.len(), 0.0);
         self.factor.solve_in_place(&mut z);
-        work.count_solves(1, self.factor.nonzeros());
+        work.solved(self.factor.nonzeros());
         z.truncate(n);
         let length = dot(&z, &z).sqrt();
         z.iter_mut().for_each(|v| *v /= length);

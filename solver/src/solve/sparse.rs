@@ -129,6 +129,18 @@ impl SymmetricMatrix {
             y[c] += sum;
         }
     }
+
+    /// `|A| |x|`: what the terms of `A x` add up to before they cancel.
+    pub fn multiply_magnitudes(&self, x: &[f64]) -> Vec<f64> {
+        let mut y = vec![0.0; self.n];
+        for (r, c, v) in self.entries() {
+            y[r] += (v * x[c]).abs();
+            if r != c {
+                y[c] += (v * x[r]).abs();
+            }
+        }
+        y
+    }
 }
 
 /// Sorts indices by their keys below `n`, ties as they come. Gives them with the place where each key begins.

@@ -83,19 +83,23 @@ impl Tool {
     }
 }
 
-/// Runs a command to its end and gives what it printed.
+/// Runs a command to its end and gives what it printed, errors last.
 ///
 /// # Errors
 /// A command that cannot be started or fails, with the end of what it said.
 pub fn run(mut command: Command, script: &Path) -> Result<String> {
     let output =
         command.output().with_context(|| format!("{:?} cannot be started", command.get_program()))?;
-    let said = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+    let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+    let said = text(&output.stdout) + &text(&output.stderr);
     if !output.status.success() {
-        let all = said(&output.stdout) + &said(&output.stderr);
-        let lines: Vec<&str> = all.lines().collect();
-        let last = lines[lines.len().saturating_sub(12)..].join("\n");
-        bail!("{} failed ({}):\n{last}", script.display(), output.status);
+        bail!("{} failed ({}):\n{}", script.display(), output.status, end_of(&said));
     }
-    Ok(said(&output.stdout))
+    Ok(said)
+}
+
+/// The last lines of what a code said.
+pub fn end_of(said: &str) -> String {
+    let lines: Vec<&str> = said.lines().collect();
+    lines[lines.len().saturating_sub(12)..].join("\n")
 }

@@ -3,8 +3,12 @@
 use super::finish;
 use crate::args::{Stability, Studied};
 use crate::progress::Progress;
+use crate::running::pool;
 use anyhow::Result;
+use rayon::prelude::*;
 use seam_cases::catalogue;
+use seam_cases::file::SceneFile;
+use seam_cases::result::CaseResult;
 use seam_cases::study::Kept;
 use seam_cases::study::stability::StabilityStudy;
 use seam_cases::write::STUDIES;
@@ -20,14 +24,16 @@ pub fn stability(words: &Stability) -> Result<Exit> {
     let studied = Studied { cases, overrides: overrides.clone(), out: out.clone(), running: *running };
     let files = super::scenes(&studied)?;
     let progress = Progress::new(files.len(), running.quiet);
-    let mut found = Vec::new();
-    for file in &files {
+    let one = |file: &SceneFile| {
         let parts = out.join(STUDIES).join("stability").join(&file.scene.id);
         let study = StabilityStudy::new(file, running.tier.into());
-        found.push(study.run(&progress, &Kept::new(parts, running.resume))?);
-    }
+        study.run(&progress, &Kept::new(parts, running.resume))
+    };
+    // Nothing is timed here, so that cases may share the machine.
+    let found: Result<Vec<CaseResult>, _> =
+        pool(running)?.install(|| files.par_iter().with_max_len(1).map(one).collect());
     progress.finish();
-    finish(&studied, "stability", &found)
+    finish(&studied, "stability", &found?)
 }
 
 fn hard() -> Result<Vec<String>> {

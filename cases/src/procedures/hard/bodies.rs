@@ -181,6 +181,20 @@ pub fn close_packed(
     bond_network(&particles.arrangement, &particles.pairs, &recipe)
 }
 
+/// The same from the parameters of a scene.
+///
+/// # Errors
+/// A missing parameter; numbers that give no lattice or bond.
+pub fn close_packed_of(setting: &Setting, space: Space) -> Result<Network> {
+    let material =
+        BondMaterial { young_pa: setting.number("young_Pa")?, poisson: setting.number("poisson")? };
+    let matter =
+        Matter { density: setting.number("density_kg_m3")?, thickness_m: setting.number("thickness_m")? };
+    let (side, ratio, rows) =
+        (setting.number("side_m")?, setting.number("radius_ratio")?, setting.count("rows", 1)?);
+    close_packed(space, side, rows, material, ratio, matter).map_err(|e| setting.solver(e))
+}
+
 /// A block of 2 × 1 (× 1) sides of elements, inner nodes moved at random by a share of the shortest edge.
 ///
 /// # Errors

@@ -2,12 +2,10 @@
 
 use super::super::Setting;
 use super::super::rounding;
-use super::bodies::{SPACES, Sandwich, bonded, close_packed};
+use super::bodies::{SPACES, Sandwich, bonded, close_packed_of};
 use crate::error::{Error, Result};
 use crate::margin::Search;
 use crate::result::CaseResult;
-use seam_solver::dem::arrangement::Matter;
-use seam_solver::dem::bond::BondMaterial;
 use seam_solver::dem::kernel::vibration::Vibration;
 use seam_solver::dem::network::Network;
 use seam_solver::dynamics::State;
@@ -44,7 +42,7 @@ fn all(
     result: &mut CaseResult,
 ) -> Result<()> {
     let refuse = |e| setting.solver(e);
-    let network = network(setting, space)?;
+    let network = close_packed_of(setting, space)?;
     let alone = vibrate(&network, 1, steps, &mut result.work).map_err(refuse)?;
     let most = network.particles.len().min(setting.count("threads_to", 2)?);
     let found = Search { from: 1.0, to: most as f64, tolerance: 0.0 }.largest(|threads| {
@@ -98,16 +96,6 @@ fn all(
         ));
     }
     Ok(())
-}
-
-fn network(setting: &Setting, space: Space) -> Result<Network> {
-    let material =
-        BondMaterial { young_pa: setting.number("young_Pa")?, poisson: setting.number("poisson")? };
-    let matter =
-        Matter { density: setting.number("density_kg_m3")?, thickness_m: setting.number("thickness_m")? };
-    let (side, ratio, rows) =
-        (setting.number("side_m")?, setting.number("radius_ratio")?, setting.count("rows", 1)?);
-    close_packed(space, side, rows, material, ratio, matter).map_err(|e| setting.solver(e))
 }
 
 fn shaken(n: usize) -> Vec<f64> {

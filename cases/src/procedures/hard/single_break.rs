@@ -6,14 +6,13 @@
 
 use super::super::compared::within;
 use super::super::{Setting, rounding};
-use super::bodies::{SPACES, bonded, close_packed};
+use super::bodies::{SPACES, bonded, close_packed_of};
 use crate::error::Result;
 use crate::margin::{Margin, Search};
 use crate::observe::curve::nan_max;
 use crate::result::CaseResult;
 use seam_solver::cracking::{Cracking, Options as Cracks};
-use seam_solver::dem::arrangement::Matter;
-use seam_solver::dem::bond::{BondMaterial, for_each_stiffness};
+use seam_solver::dem::bond::for_each_stiffness;
 use seam_solver::dem::network::Network;
 use seam_solver::dynamics::State;
 use seam_solver::dynamics::critical;
@@ -46,7 +45,7 @@ pub fn run(setting: &Setting, result: &mut CaseResult) -> Result<()> {
     let steps = setting.count("steps", 10)? as u64;
     for (space, id) in SPACES {
         let refuse = |e| setting.solver(e);
-        let network = network(setting, space)?;
+        let network = close_packed_of(setting, space)?;
         type Break = fn(&Network, u64, f64, &mut Work) -> Solved<Open>;
         for (code, name, breaking) in
             [("explicit", "explicit", explicit as Break), ("implicit", "trapezoidal rule", implicit)]
@@ -105,16 +104,6 @@ pub fn run(setting: &Setting, result: &mut CaseResult) -> Result<()> {
         result.margins.push(margin);
     }
     Ok(())
-}
-
-fn network(setting: &Setting, space: Space) -> Result<Network> {
-    let material =
-        BondMaterial { young_pa: setting.number("young_Pa")?, poisson: setting.number("poisson")? };
-    let matter =
-        Matter { density: setting.number("density_kg_m3")?, thickness_m: setting.number("thickness_m")? };
-    let (side, ratio) = (setting.number("side_m")?, setting.number("radius_ratio")?);
-    let rows = setting.count("rows", 1)?;
-    close_packed(space, side, rows, material, ratio, matter).map_err(|e| setting.solver(e))
 }
 
 /// Energy of each bond at displacements `u`, in J.
@@ -232,7 +221,7 @@ fn implicit(network: &Network, steps: u64, share: f64, work: &mut Work) -> Solve
 
 /// Pulled apart until nothing holds: how many breaks in a row close to 1e-10, each for itself and all together.
 fn events(setting: &Setting, space: Space, id: &str, result: &mut CaseResult) -> Result<Margin> {
-    let mut model = bonded(network(setting, space)?);
+    let mut model = bonded(close_packed_of(setting, space)?);
     let strength_pa = setting.number("strength_Pa")?;
     let law = FailureLaw::BondStress(BondStress::Normal { tensile: Strength::Stress { strength_pa } });
     let Part::Discrete { network, name } = &model.parts[0] else {

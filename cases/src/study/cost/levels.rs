@@ -5,7 +5,7 @@ use crate::file::SceneFile;
 use crate::overrides::{Override, label};
 use crate::scene::Scene;
 use crate::scene::number::Number;
-use crate::scene::study::Levels;
+use crate::scene::study::{CostDeclaration, Levels};
 use serde_json::{Value, json};
 
 /// Fewest levels of a study.
@@ -27,11 +27,19 @@ impl Resolution {
         let of_costs = scene.costs.values().map(|c| &c.levels);
         let of_convergence = scene.convergence.values().map(|c| &c.levels);
         let of_reference = scene.reference.iter().map(|r| &r.levels);
-        let numbers = |levels: &&Levels| {
-            levels.values.len() > 1 && levels.values.iter().all(|v| resolution(v).is_some())
-        };
-        let found = of_costs.chain(of_convergence).chain(of_reference).find(numbers);
+        let found = of_costs.chain(of_convergence).chain(of_reference).find(|levels| numbers(levels));
         found.map_or(Self::Factor, |levels| Self::Key(at_least_four(levels)))
+    }
+
+    /// That of one diagram: its own levels where there are enough of them, else those of another diagram over the same key.
+    pub fn of_diagram(scene: &Scene, declared: &CostDeclaration) -> Self {
+        let enough = |levels: &&Levels| levels.values.len() >= LEAST && numbers(levels);
+        let others = scene.costs.values().map(|c| &c.levels).filter(|l| l.key == declared.levels.key);
+        match std::iter::once(&declared.levels).chain(others).find(enough) {
+            Some(levels) => Self::Key(levels.clone()),
+            None if numbers(&declared.levels) => Self::Key(at_least_four(&declared.levels)),
+            None => Self::of(scene),
+        }
     }
 
     /// Number of levels.
@@ -39,6 +47,14 @@ impl Resolution {
         match self {
             Self::Key(levels) => levels.values.len(),
             Self::Factor => FACTORS.len(),
+        }
+    }
+
+    /// Rows and divisions at a level, up to a factor.
+    pub fn size(&self, index: usize) -> f64 {
+        match self {
+            Self::Key(levels) => levels.values[index].as_f64().unwrap_or(1.0),
+            Self::Factor => FACTORS[index],
         }
     }
 
@@ -61,7 +77,7 @@ impl Resolution {
         match self {
             Self::Key(levels) => {
                 let last = levels.values.last().and_then(Value::as_f64).unwrap_or(1.0);
-                let value = json!(2.0 * last);
+                let value = whole(2.0 * last);
                 (level_name(levels, &value), vec![at_level(levels, &value)])
             }
             Self::Factor => {
@@ -77,9 +93,19 @@ fn at_least_four(levels: &Levels) -> Levels {
     let mut values = levels.values.clone();
     while values.len() < LEAST {
         let last = values.last().and_then(Value::as_f64).unwrap_or(1.0);
-        values.push(json!(2.0 * last));
+        values.push(whole(2.0 * last));
     }
     Levels { key: levels.key.clone(), values }
+}
+
+/// Whether a key is refined in numbers, at least twice.
+fn numbers(levels: &Levels) -> bool {
+    levels.values.len() > 1 && levels.values.iter().all(|v| resolution(v).is_some())
+}
+
+/// A count is written as one: 32, not 32.0.
+fn whole(value: f64) -> Value {
+    if value.fract() == 0.0 && value < 1e15 { json!(value as u64) } else { json!(value) }
 }
 
 /// Every count of cells and rows of particles times a factor, at least one.
@@ -113,6 +139,23 @@ pub fn text(number: &Number) -> String {
 mod tests {
     use super::*;
     use crate::catalogue;
+
+    #[test]
+    fn levels_beyond_the_declared_ones_are_whole_and_a_short_diagram_takes_those_of_a_long_one() {
+        let levels = |values: &[f64]| Levels {
+            key: "parameters.rows".to_owned(),
+            values: values.iter().map(|v| whole(*v)).collect(),
+        };
+        assert_eq!(at_least_four(&levels(&[4.0, 8.0])).values, [json!(4), json!(8), json!(16), json!(32)]);
+        assert_eq!(at_least_four(&levels(&[0.5, 1.5])).values[3], json!(6));
+        let ramp = catalogue::case("ramp-transfer", &[]).unwrap().scene;
+        let of = |name: &str| match Resolution::of_diagram(&ramp, &ramp.costs[name]) {
+            Resolution::Key(levels) => levels.values,
+            Resolution::Factor => panic!("'{name}' declares levels"),
+        };
+        assert_eq!(of("rates"), of("deflection"));
+        assert_eq!(of("deflection"), ramp.costs["deflection"].levels.values);
+    }
 
     #[test]
     fn a_scene_is_refined_by_its_own_key_or_as_a_whole() {

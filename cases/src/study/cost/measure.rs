@@ -2,12 +2,13 @@
 
 use super::super::Study;
 use super::super::evaluate::{self, Solved, Tally};
+use super::elsewhere::elsewhere;
 use super::target::Target;
 use crate::error::Result;
 use crate::file::SceneFile;
 use crate::model::calibration;
 use crate::overrides::Override;
-use crate::result::CostPoint;
+use crate::result::{CostPoint, Elsewhere};
 use seam_solver::stage::{STAGES, Seconds, measured};
 use seam_solver::work::Work;
 use std::collections::BTreeMap;
@@ -71,11 +72,13 @@ pub fn measure(
         unknowns: middle.unknowns,
         work: middle.work,
         calibration_work: middle.calibration.total(),
+        run_work: middle.run.total(),
         seconds,
         seconds_spread: [times[0].0, times[times.len() - 1].0],
         seconds_runs: times.len(),
         seconds_of_stages: named(&stages, seconds),
         memory_mb: None,
+        elsewhere: middle.elsewhere,
     })
 }
 
@@ -86,23 +89,28 @@ struct Once {
     particles: usize,
     unknowns: usize,
     work: Work,
+    run: Work,
     calibration: Work,
     seconds: f64,
     stages: Seconds,
+    elsewhere: Option<Elsewhere>,
 }
 
 fn once(study: &Study, target: &Target, file: &SceneFile) -> Result<Once> {
     let (solved, stages) = timed(file, study.tally)?;
     let mut work = solved.solution.work;
     work += solved.built.calibration;
+    work += solved.built.packing;
     Ok(Once {
         file: file.clone(),
         particles: solved.built.particles(),
         unknowns: solved.solution.numbering.len(),
         work,
+        run: solved.solution.work,
         calibration: solved.built.calibration,
         seconds: solved.seconds,
         stages,
+        elsewhere: elsewhere(file, &solved),
         error: target.error(study, file, solved.readings)?,
     })
 }

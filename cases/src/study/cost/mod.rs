@@ -1,5 +1,6 @@
 //! Work–precision: error against counted work and seconds for several settings.
 
+mod elsewhere;
 mod levels;
 mod measure;
 mod plan;
@@ -12,9 +13,13 @@ use super::{Study, at_level, level_name};
 use crate::error::Result;
 use crate::overrides::Override;
 use crate::result::{CostDiagram, CostPoint, CostSetting};
+use crate::scene::Tier;
 use crate::scene::study::CostDeclaration;
 use measure::{Repeats, measure};
 use target::Target;
+
+/// Packings per random setting of a study, in the quick and in the full tier.
+const SEEDS: [u64; 2] = [3, 7];
 
 /// The cost diagrams that the scene declares for this tier: its own settings at its own levels.
 pub(super) fn all(study: &Study) -> Result<Vec<CostDiagram>> {
@@ -29,18 +34,33 @@ fn one(study: &Study, name: &str, declared: &CostDeclaration) -> Result<CostDiag
     // The settings of a level in turn: what else the machine does falls on all of them alike, and their times have a ratio.
     for value in &declared.levels.values {
         for (names, setting) in declared.settings.values().zip(&mut settings) {
-            let mut changes = study.variants(names);
+            let mut changes = study.variants(&[&declared.variants[..], names].concat());
             changes.push(at_level(&declared.levels, value));
             setting.points.push(point(study, &target, &changes, level_name(&declared.levels, value)));
         }
     }
-    Ok(CostDiagram { id: name.to_owned(), title: declared.title.clone(), settings, ..target.head(study) })
+    let mut diagram = CostDiagram {
+        id: name.to_owned(),
+        title: declared.title.clone(),
+        cheaper: declared.cheaper.clone(),
+        settings,
+        ..target.head(study)
+    };
+    diagram.name_paper_like();
+    Ok(diagram)
 }
 
 /// A setting that cannot run is a gap in its line, with the reason.
 fn point(study: &Study, target: &Target, changes: &[Override], level: String) -> CostPoint {
     let file = study.file.with(changes);
-    let found = file.and_then(|file| measure(study, target, &file, &[], Repeats::IfShort));
+    let found = file.and_then(|file| {
+        // The quick tier takes the packing that the scene names.
+        let packings = match study.tier {
+            Tier::Quick => Vec::new(),
+            Tier::Full => settings::packings(&file.scene, SEEDS[1]),
+        };
+        measure(study, target, &file, &packings, Repeats::IfShort)
+    });
     let point =
         found.unwrap_or_else(|error| CostPoint { failed: Some(error.to_string()), ..CostPoint::default() });
     CostPoint { level, ..point }

@@ -4,25 +4,24 @@ use super::super::evaluate::Tally;
 use super::super::kept::Kept;
 use super::super::reference::Library;
 use super::super::{Onlooker, Study, digest, head, peer, variants};
+use super::SEEDS;
 use super::levels::Resolution;
 use super::measure::{Repeats, measure};
 use super::settings::{Setting, all_elements, generated, packings};
 use super::target::Target;
 use crate::error::{Error, Result};
 use crate::file::SceneFile;
-use crate::result::{CaseResult, CostDiagram, CostPoint, CostSetting};
+use crate::overrides::Override;
+use crate::result::{CaseResult, CostDiagram, CostPoint, CostSetting, PAPER_LIKE};
 use crate::scene::study::CostDeclaration;
 use crate::scene::{Hypothesis, Tier};
 use std::collections::BTreeSet;
+use std::time::Instant;
 
-/// Packings per random setting.
-const SEEDS: [u64; 2] = [3, 7];
 /// Runs shorter than this are timed again, in s.
 const REPEATED_S: f64 = 2.0;
-/// A level is taken to cost this many times the one before, in the plane and in the solid: twice the rows, solved directly.
-const GROWTH: [f64; 2] = [8.0, 64.0];
-/// The variant, and the legend, of the setting that others are compared with.
-const PAPER_LIKE: &str = "paper-like";
+/// Time grows at most as this power of the rows, in the plane and in the solid: a banded solve of rows² or rows³ unknowns.
+const POWERS: [f64; 2] = [4.0, 7.0];
 
 /// What a study needs from outside.
 pub struct Surroundings<'a> {
@@ -67,16 +66,21 @@ impl<'a> CostStudy<'a> {
         }
         let mut diagrams: Vec<Diagram> = Vec::new();
         for (name, declared) in &scene.costs {
+            let start = variants(file, &declared.variants);
+            let all = |changes: Vec<Override>| [&start[..], &changes].concat();
             let settings = declared
                 .settings
                 .iter()
-                .map(|(legend, names)| Setting { name: legend.clone(), changes: variants(file, names) });
+                .map(|(legend, names)| Setting { name: legend.clone(), changes: all(variants(file, names)) });
+            // What lies one change away is measured once, in the first diagram.
+            let near = if diagrams.is_empty() { generated(&file.with(&start)?) } else { Vec::new() };
+            let near = near.into_iter().map(|s| Setting { changes: all(s.changes), ..s });
             diagrams.push(Diagram {
                 id: name.clone(),
                 title: declared.title.clone(),
                 declared: Some(declared),
-                resolution: Resolution::of(scene),
-                settings: distinct(file, settings.chain(generated(file))),
+                resolution: Resolution::of_diagram(scene, declared),
+                settings: distinct(file, settings.chain(near)),
             });
         }
         if diagrams.is_empty() {
@@ -114,11 +118,13 @@ impl<'a> CostStudy<'a> {
         let (peers, _) = peer::all(self.file)?;
         let study =
             Study { file: self.file, tier: self.tier, tally: &tally, library: &library, peers: &peers };
-        let mut result = head(self.file, self.tier);
+        let start = Instant::now();
+        let mut result = CaseResult { study_alone: true, ..head(self.file, self.tier) };
         result.command = result.command.replacen("seam run", "seam study cost", 1);
         for diagram in &self.diagrams {
             result.costs.push(diagram.run(&study, around)?);
         }
+        result.seconds = start.elapsed().as_secs_f64();
         Ok(result)
     }
 }
@@ -129,17 +135,23 @@ impl Diagram<'_> {
             Some(declared) => Target::declared(study, declared)?,
             None => Target::found(study, || self.finest(study))?,
         };
-        let mut diagram =
-            CostDiagram { id: self.id.clone(), title: self.title.clone(), ..target.head(study) };
+        let mut diagram = CostDiagram {
+            id: self.id.clone(),
+            title: self.title.clone(),
+            cheaper: self.declared.and_then(|declared| declared.cheaper.clone()),
+            ..target.head(study)
+        };
         for setting in &self.settings {
             let mut points: Vec<CostPoint> = Vec::new();
             for level in 0..self.resolution.len() {
-                let expected = expected(&points, study.file.scene.hypothesis);
+                let measured = points.iter().enumerate().filter(|(_, p)| p.error.is_some());
+                let measured: Vec<_> = measured.map(|(k, p)| [self.resolution.size(k), p.seconds]).collect();
+                let expected = expected(&measured, self.resolution.size(level), study.file.scene.hypothesis);
                 points.push(self.point(study, (&target, setting), level, expected, around)?);
             }
             diagram.settings.push(CostSetting { name: setting.name.clone(), points });
         }
-        diagram.paper_like = self.settings.iter().map(|s| &s.name).find(|name| *name == PAPER_LIKE).cloned();
+        diagram.name_paper_like();
         Ok(diagram)
     }
 
@@ -200,18 +212,23 @@ impl Diagram<'_> {
         let how = match (kept, point.error) {
             (true, _) => "kept".to_owned(),
             (false, Some(error)) => format!("error {:.2} %, {:.2} s", 100.0 * error, point.seconds),
-            (false, None) => "failed".to_owned(),
+            (false, None) => format!("failed: {}", point.failed.as_deref().unwrap_or_default()),
         };
         around.onlooker.done(&what, &how);
         Ok(CostPoint { level: name, ..point })
     }
 }
 
-/// What the next level may take, in s, by the last one that was measured; nothing is known before.
-fn expected(points: &[CostPoint], hypothesis: Hypothesis) -> f64 {
-    let growth = GROWTH[usize::from(hypothesis == Hypothesis::Solid)];
-    let last = points.iter().rposition(|p| p.error.is_some());
-    last.map_or(0.0, |last| points[last].seconds * growth.powi((points.len() - last) as i32))
+/// What a level may take, in s: a power of its size through the last two that were measured, and where there is one, the highest.
+/// Nothing is known before.
+fn expected(measured: &[[f64; 2]], size: f64, hypothesis: Hypothesis) -> f64 {
+    let highest = POWERS[usize::from(hypothesis == Hypothesis::Solid)];
+    let Some(&[last, seconds]) = measured.last() else { return 0.0 };
+    let power = match measured {
+        [.., [before, then], _] => ((seconds / then).ln() / (last / before).ln()).clamp(0.0, highest),
+        _ => highest,
+    };
+    seconds * (size / last).powf(power)
 }
 
 /// Settings that differ in what is computed; of two that do not, the first.
@@ -232,4 +249,20 @@ fn key(study: &Study, file: &SceneFile, diagram: &str, packings: usize) -> Strin
         hasher.update(b"\n");
     });
     hasher.finalize().to_hex()[..32].to_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_level_is_expected_to_grow_as_the_last_two_did() {
+        let of = |measured: &[[f64; 2]], size: f64| expected(measured, size, Hypothesis::PlaneStress);
+        assert_eq!(of(&[], 8.0), 0.0);
+        assert_eq!(of(&[[4.0, 1.0]], 8.0), 16.0);
+        assert!((of(&[[4.0, 1.0], [8.0, 4.0]], 12.0) - 9.0).abs() < 1e-12);
+        // What seems to fall is taken to stay; what seems to explode is not believed.
+        assert_eq!(of(&[[4.0, 2.0], [8.0, 1.0]], 12.0), 1.0);
+        assert_eq!(of(&[[4.0, 1e-6], [8.0, 1.0]], 16.0), 16.0);
+    }
 }

@@ -12,6 +12,7 @@ use crate::scene::Tier;
 use crate::scene::effects::NAMES;
 use crate::scene::quantity::Norm;
 use serde_json::json;
+use std::time::Instant;
 
 /// Change that counts as none where a scene declares no tolerance of its own.
 const TOLERANCE: f64 = 0.01;
@@ -54,7 +55,8 @@ impl<'a> EffectStudy<'a> {
     /// # Errors
     /// The scene itself cannot run; a part that cannot be kept. An effect that cannot be switched is told with the reason.
     pub fn run(&self, onlooker: &dyn Onlooker, kept: &Kept) -> Result<CaseResult> {
-        let mut result = head(self.file, self.tier);
+        let start = Instant::now();
+        let mut result = CaseResult { study_alone: true, ..head(self.file, self.tier) };
         result.command = result.command.replacen("seam run", "seam study effects", 1);
         let id = &self.file.scene.id;
         onlooker.begin(id);
@@ -75,6 +77,7 @@ impl<'a> EffectStudy<'a> {
             onlooker.done(effect, &how);
             result.ablations.push(ablation);
         }
+        result.seconds = start.elapsed().as_secs_f64();
         Ok(result)
     }
 }
@@ -133,6 +136,7 @@ fn side(file: &SceneFile, solved: &Solved, effect: &str) -> AblationRun {
     let EffectUse { counter, called_for, indicator, .. } = found.unwrap_or_default();
     let mut work = solved.solution.work;
     work += solved.built.calibration;
+    work += solved.built.packing;
     AblationRun { counter, called_for, indicator, work, seconds: solved.seconds }
 }
 

@@ -88,8 +88,8 @@ fn work(c: &CaseJudgement) -> Vec<(&'static str, String)> {
         ("factorisations", w.factorisations),
         ("factor entries", w.factor_nonzeros),
         ("solves", w.solves),
-        ("factor entries of all solves", w.solve_nonzeros),
         ("contact checks", w.contact_checks),
+        ("packing checks", w.packing_checks),
         ("steps", w.steps),
     ];
     all.into_iter().filter(|(_, n)| *n > 0).map(|(name, n)| (name, format::grouped(n))).collect()

@@ -85,6 +85,9 @@ pub(super) fn page(results: &Results, cases: &[CaseResult]) -> Page {
     let shown = || results.cases.iter().filter_map(|c| measured(&c.id));
     let costs =
         |cost| shown().flat_map(|c| &c.costs).flat_map(|d| plots::cost::work_precision(d, cost)).collect();
+    let beside = results.race.as_ref().map(|race| {
+        shown().flat_map(|c| &c.costs).filter_map(|d| plots::cost::beside(d, race)).collect::<Vec<_>>()
+    });
     let claims = results.cases.iter().flat_map(|c| c.claims.iter().map(move |j| (c, j)));
     let budgets = shown().flat_map(|c| c.budgets.iter().filter_map(|b| budget::view(&c.id, b)));
     let outcome = results.exit(true);
@@ -116,7 +119,7 @@ pub(super) fn page(results: &Results, cases: &[CaseResult]) -> Page {
         provenance: results.provenance.clone(),
         timings: results.cases.iter().map(|c| (c.id.clone(), seconds(c.seconds))).collect(),
         seconds: seconds(results.cases.iter().map(|c| c.seconds).sum()),
-        second_costs: costs(Cost::Seconds),
+        second_costs: costs(Cost::Seconds).into_iter().chain(beside.into_iter().flatten()).collect(),
         second_advantages: studies::in_seconds(results),
         stages: shown().flat_map(|c| c.costs.iter().map(|d| studies::stages(&c.id, d))).collect(),
         timed: studies::timed(results),

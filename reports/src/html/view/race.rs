@@ -80,11 +80,7 @@ fn row(lane: &Lane) -> Row {
         range: format!("{low} … {high}"),
         ratio: significant(lane.times_seam, 3),
         finite: lane.times_finite.map_or("–".to_owned(), |r| significant(r, 3)),
-        memory: format!("{:.0}", lane.memory_mib),
-        difference: if lane.code == crate::race::SEAM {
-            "–".to_owned()
-        } else {
-            significant(lane.difference, 2)
-        },
+        memory: lane.memory_mib.map_or("–".to_owned(), |m| format!("{m:.0}")),
+        difference: lane.difference.map_or("–".to_owned(), |d| significant(d, 2)),
     }
 }

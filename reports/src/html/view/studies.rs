@@ -17,7 +17,7 @@ pub(crate) struct CostView {
     reference: String,
     cheapest: Vec<[String; 6]>,
     front: Vec<[String; 4]>,
-    advantages: Vec<[String; 3]>,
+    advantages: Vec<[String; 4]>,
     growth: Vec<[String; 3]>,
     gaps: Vec<[String; 3]>,
 }
@@ -98,10 +98,11 @@ fn cheapest(c: &Cheapest) -> [String; 6] {
     ]
 }
 
-fn advantage(a: &Advantage) -> [String; 3] {
+fn advantage(a: &Advantage) -> [String; 4] {
     let least = if a.work_at_least { "at least " } else { "" };
     let claimed = if a.claimed { " (claimed)" } else { "" };
-    [percent(a.error) + claimed, a.setting.clone(), format!("{least}{}", significant(a.times_less_work, 3))]
+    let times = format!("{least}{}", significant(a.times_less_work, 3));
+    [percent(a.error) + claimed, a.setting.clone(), times, significant(a.times_less_run_work, 3)]
 }
 
 fn growth(g: &Growth) -> [String; 3] {
@@ -137,7 +138,7 @@ pub(super) fn in_seconds(results: &Results) -> Vec<[String; 4]> {
         .iter()
         .flat_map(|c| c.costs.iter().flat_map(move |d| d.advantages.iter().map(move |a| (c, a))));
     all.map(|(case, a)| {
-        let [accuracy, setting, _] = advantage(a);
+        let [accuracy, setting, ..] = advantage(a);
         let least = if a.seconds_at_least { "at least " } else { "" };
         [case.id.clone(), accuracy, setting, format!("{least}{}", significant(a.times_less_seconds, 3))]
     })

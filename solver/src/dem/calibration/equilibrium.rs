@@ -18,8 +18,7 @@ impl Equilibrium {
     pub fn new(unknowns: usize, triplets: &Triplets, work: &mut Work) -> Result<Self> {
         let matrix = SymmetricMatrix::from_triplets(unknowns, triplets);
         let factor = Factor::new(&matrix, Ordering::MinimumDegree)?;
-        work.factorisations += 1;
-        work.factor_nonzeros += factor.nonzeros() as u64;
+        work.factored(factor.nonzeros());
         Ok(Self { matrix, factor })
     }
 
@@ -30,7 +29,7 @@ impl Equilibrium {
         let mut correction = self.residual(&x, f);
         self.factor.solve_in_place(&mut correction);
         x.iter_mut().zip(&correction).for_each(|(x, c)| *x += c);
-        work.count_solves(2, self.factor.nonzeros());
+        (0..2).for_each(|_| work.solved(self.factor.nonzeros()));
         // Forces that balance to rounding are nothing to be relative to: what the unknowns push does as well.
         let pushed = self.matrix.diagonal().iter().zip(&x).map(|(k, x)| (k * x).abs()).fold(0.0, f64::max);
         let size = pushed.max(amax(f));

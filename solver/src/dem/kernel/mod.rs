@@ -9,6 +9,7 @@
 //! neighbours in space are neighbours in memory; [`vibration`] integrates a network on several threads.
 
 pub mod locality;
+pub mod per_bond;
 mod record;
 pub mod vibration;
 

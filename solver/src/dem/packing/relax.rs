@@ -35,10 +35,13 @@ struct Relaxation<'a> {
     /// Largest overlap and largest force component, in metres.
     overlap: f64,
     largest_force: f64,
+    /// Pairs looked at so far.
+    checks: u64,
 }
 
-/// Moves the particles, each along its free axes only, until they hardly overlap or are jammed.
-pub fn push_apart(recipe: &PackingRecipe, thrown: &mut Thrown) {
+/// Moves the particles, each along its free axes only, until they hardly overlap or are jammed; gives the number of pairs
+/// looked at.
+pub fn push_apart(recipe: &PackingRecipe, thrown: &mut Thrown) -> u64 {
     let n = thrown.position.len();
     let unit = thrown.radius.iter().sum::<f64>() / n as f64;
     let force = vec![Vec3::zeros(); n];
@@ -51,10 +54,12 @@ pub fn push_apart(recipe: &PackingRecipe, thrown: &mut Thrown) {
         force,
         overlap: 0.0,
         largest_force: 0.0,
+        checks: 0,
     };
     relaxation.list_neighbours();
     relaxation.run();
     relaxation.wrap();
+    relaxation.checks
 }
 
 impl Relaxation<'_> {
@@ -170,6 +175,7 @@ impl Relaxation<'_> {
                 self.overlap = self.overlap.max(overlap);
             }
         }
+        self.checks += self.list.len() as u64;
         self.add_mirrors();
         self.largest_force = 0.0;
         for (f, free) in self.force.iter_mut().zip(&self.thrown.free) {

@@ -1,6 +1,6 @@
 //! What a lane leaves behind: `time.toml` and `final.csv`.
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, bail};
 use std::path::Path;
 
 /// One run of one code.
@@ -17,8 +17,8 @@ pub struct Finish {
 }
 
 impl Finish {
-    /// Reads both files.
-    pub fn read(folder: &Path) -> Result<Self> {
+    /// Reads both files; `points` particles or nodes ran.
+    pub fn read(folder: &Path, points: usize) -> Result<Self> {
         let load = |name: &str| {
             let path = folder.join(name);
             std::fs::read_to_string(&path).with_context(|| path.display().to_string())
@@ -37,12 +37,19 @@ impl Finish {
             numbers.try_into().ok()
         };
         let rows = load("final.csv")?;
-        let displacement = rows.lines().skip(1).map(vector).collect::<Option<_>>();
+        let displacement = rows.lines().skip(1).map(vector).collect::<Option<Vec<_>>>();
+        let displacement = displacement.context("final.csv is no table of displacements")?;
+        if displacement.len() != points {
+            bail!(
+                "final.csv has {} rows for {points} points: the code ended while it wrote",
+                displacement.len()
+            );
+        }
         Ok(Self {
             seconds: number("seconds")?,
             memory_mb: number("memory_mb")?,
             version: text("version")?,
-            displacement: displacement.context("final.csv is no table of displacements")?,
+            displacement,
         })
     }
 

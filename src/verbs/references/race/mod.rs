@@ -13,20 +13,19 @@ use finish::Finish;
 use row::Row;
 use seam_cases::export::{Code, Export, race};
 use seam_reports::exit::Exit;
-use seam_reports::race::Race as Recorded;
+use seam_reports::race::{ARITHMETIC, BANDWIDTH, Race as Recorded, SEAM, SEAM_FINITE as FINITE};
 use seam_reports::terminal;
+use seam_solver::dem::kernel::per_bond::PerBond;
+use seam_solver::limits::{arithmetic, bandwidth};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// Who runs.
+/// Who runs. Seam with finite rotations knows one thread.
 struct Lane {
     name: &'static str,
     tool: Option<Tool>,
 }
-
-/// Seam's loop with bonds for finite rotations, which the other codes carry too. It knows one thread.
-const FINITE: &str = "seam-finite";
 
 /// What is run.
 struct Course {
@@ -38,14 +37,18 @@ struct Course {
     folder: PathBuf,
     /// First word of Seam's lane.
     own: String,
+    /// Seam's lane whose end the others are compared with: with finite rotations where they follow them too.
+    target: &'static str,
+    /// What Seam's faster loop costs per bond update.
+    per_bond: Option<PerBond>,
 }
 
 /// Runs everything, writes it and prints the table.
 pub fn race(words: &Race) -> Result<Exit> {
     let scratch = Scratch::new()?;
     let (mut rows, mut inputs) = (Vec::new(), BTreeMap::new());
-    let networks = lanes(&["seam", FINITE], &[Code::Yade, Code::Lammps])?;
-    let meshes = lanes(&["seam"], &[Code::Calculix])?;
+    let networks = lanes(&[SEAM, FINITE], &[Code::Yade, Code::Lammps])?;
+    let meshes = lanes(&[SEAM], &[Code::Calculix])?;
     let mut versions = BTreeMap::new();
     let mut given = |name: &str, export: &Export, folder: &Path| -> Result<()> {
         let hashes = export.hashes().into_iter();
@@ -65,6 +68,8 @@ pub fn race(words: &Race) -> Result<Exit> {
             amount: (start.network.bonds.len() * steps) as u64,
             own: folder.display().to_string(),
             folder,
+            target: FINITE,
+            per_bond: Some(PerBond::solid(&start.network)),
         };
         courses.push((course, &networks));
     }
@@ -74,7 +79,15 @@ pub fn race(words: &Race) -> Result<Exit> {
         let folder = scratch.0.join(&name);
         given(&name, &race::export_bar(&model), &folder)?;
         let size = model.parts[0].positions().len();
-        let course = Course { what: "mesh", size, amount: 3 * size as u64, folder, own: nodes.to_string() };
+        let course = Course {
+            what: "mesh",
+            size,
+            amount: 3 * size as u64,
+            folder,
+            own: nodes.to_string(),
+            target: SEAM,
+            per_bond: None,
+        };
         courses.push((course, &meshes));
     }
     for (course, lanes) in &courses {
@@ -101,7 +114,7 @@ fn lanes(own: &[&'static str], codes: &[Code]) -> Result<Vec<Lane>> {
     Ok(lanes)
 }
 
-/// All lanes on all numbers of threads, round after round, so that a busy moment hits every one of them.
+/// All lanes on all numbers of threads, round after round, so that a busy moment hits every one of them, and the limits too.
 fn run(
     course: &Course,
     lanes: &[Lane],
@@ -109,10 +122,13 @@ fn run(
     scratch: &Path,
     versions: &mut BTreeMap<&'static str, String>,
 ) -> Result<Vec<Row>> {
+    let own = Lane { name: course.target, tool: None };
+    let target = once(course, &own, 1, words, scratch)?;
     let mut rows: Vec<Row> = Vec::new();
     for threads in words.threads.iter().map(|n| n.get()) {
         let lanes: Vec<&Lane> = lanes.iter().filter(|lane| lane.name != FINITE || threads == 1).collect();
         let mut finishes: Vec<Vec<Finish>> = lanes.iter().map(|_| Vec::new()).collect();
+        let mut limits = [const { Vec::new() }; 2];
         for round in 1..=words.rounds.get() {
             for (lane, finishes) in lanes.iter().zip(&mut finishes) {
                 eprintln!(
@@ -123,17 +139,20 @@ fn run(
                 versions.insert(lane.name, finish.version.clone());
                 finishes.push(finish);
             }
+            if let Some(PerBond { bytes, operations }) = course.per_bond {
+                let amount = course.amount as f64;
+                limits[0].push(amount * bytes / bandwidth(threads));
+                limits[1].push(amount * operations / arithmetic(threads));
+            }
         }
-        for (lane, own) in lanes.iter().zip(&finishes) {
-            rows.push(Row::new(
-                course.what,
-                course.size,
-                course.amount,
-                threads,
-                lane.name,
-                own,
-                &finishes[0],
-            ));
+        let lane =
+            |code| row::Lane { what: course.what, size: course.size, threads, code, amount: course.amount };
+        let seam: Vec<f64> = finishes[0].iter().map(|f| f.seconds).collect();
+        for (own, finishes) in lanes.iter().zip(&finishes) {
+            rows.push(Row::of_code(lane(own.name), finishes, &seam, &target));
+        }
+        for (code, times) in [BANDWIDTH, ARITHMETIC].into_iter().zip(&limits).filter(|(_, t)| !t.is_empty()) {
+            rows.push(Row::of_limit(lane(code), times, &seam));
         }
     }
     Ok(rows)
@@ -158,6 +177,9 @@ fn once(course: &Course, lane: &Lane, threads: usize, words: &Race, scratch: &Pa
             (command, script)
         }
     };
-    tools::run(command, &script)?;
-    Finish::read(&out)
+    let said = tools::run(command, &script)?;
+    Finish::read(&out, course.size).with_context(|| {
+        let (script, said) = (script.display(), tools::end_of(&said));
+        format!("{script} ended without an error and without a whole result; it said:\n{said}")
+    })
 }
