@@ -65,3 +65,30 @@ fn point(study: &Study, target: &Target, changes: &[Override], level: String) ->
         found.unwrap_or_else(|error| CostPoint { failed: Some(error.to_string()), ..CostPoint::default() });
     CostPoint { level, ..point }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::evaluate::Tally;
+    use super::super::reference::Library;
+    use super::*;
+    use crate::catalogue;
+    use std::collections::BTreeMap;
+
+    /// A packing of its own, packings to calibrate on, and the run: each is in the whole, and nothing else is.
+    #[test]
+    fn a_point_pays_for_its_packing_and_its_calibration() {
+        let rows = Override::parse("parameters.rows=4").unwrap();
+        let file = catalogue::case("clamped-beam-rotation", &[rows]).unwrap();
+        let (tally, library, peers) = (Tally::default(), Library::default(), BTreeMap::new());
+        let study = Study { file: &file, tier: Tier::Quick, tally: &tally, library: &library, peers: &peers };
+        let target = Target::declared(&study, &file.scene.costs["rotation"]).unwrap();
+        let of = |variant: &str| {
+            let p = point(&study, &target, &study.variants(&[variant.to_owned()]), String::new());
+            assert_eq!(p.failed, None);
+            (p.work.packing_checks, p.work.total() - p.run_work - p.calibration_work)
+        };
+        let (all_packings, own) = of("paper-like");
+        assert!(0 < own && own < all_packings, "{own} of {all_packings}");
+        assert_eq!(of("lattice"), (0, 0));
+    }
+}
