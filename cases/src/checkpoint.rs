@@ -4,7 +4,7 @@
 
 use crate::error::{Error, Result};
 use crate::file::SceneFile;
-use crate::observe::guard::Guard;
+use crate::observe::guard::{Guard, Seen};
 use crate::observe::history::Histories;
 use seam_solver::checkpoint::{open, seal};
 use seam_solver::files::write_atomically;
@@ -29,8 +29,8 @@ pub(crate) struct Kept {
     /// Hash of the scene, overrides included.
     scene: String,
     pub histories: Histories,
-    /// Largest rotation, and nearest to a switch that was left out.
-    pub guarded: (f64, Option<f64>),
+    /// What was watched for effects that were left out.
+    pub seen: Seen,
     /// The solver's own checkpoint.
     pub run: Vec<u8>,
 }
@@ -85,7 +85,7 @@ impl Checkpoints {
             case: file.scene.id.clone(),
             scene: file.hash(),
             histories: histories.clone(),
-            guarded: (guard.largest_rotation, guard.nearest_switch),
+            seen: guard.seen,
             run: snapshot.checkpoint(),
         };
         write_atomically(path, &seal(&kept)).map_err(|e| file.solver(e))

@@ -5,7 +5,7 @@ use crate::error::{Error, Fault, Result};
 use crate::expression::Values;
 use crate::folder::Folder;
 use crate::overrides::{self, Override};
-use crate::scene::{Scene, check};
+use crate::scene::{Scene, check, quantity};
 use crate::source::Source;
 use std::path::Path;
 
@@ -55,6 +55,7 @@ impl SceneFile {
         };
         let mut scene = source.parse()?;
         scene.drop_disabled();
+        quantity::spread(&mut scene.quantities).map_err(|fault| source.error(fault))?;
         scene.apply_effects().map_err(|fault| source.error(fault))?;
         let values = scene.values().map_err(|fault| source.error(fault))?;
         check::check(&scene, &values).map_err(|fault| source.error(fault))?;

@@ -165,3 +165,19 @@ fn a_strip_breaks_at_its_strength() {
     let peak = value(&softened, "peak") / 1e6;
     assert!((0.9..1.3).contains(&peak) && value(&softened, "closure") < 1e-10, "{peak}");
 }
+
+/// A trigger above what the elements at the notch see when the first bond fails: particles come beyond the peak, and the result says so.
+#[test]
+fn particles_that_come_too_late_are_not_trusted() {
+    let late = Override::parse("parameters.trigger=0.4").unwrap();
+    let coarse = Override::parse("parameters.rows=30").unwrap();
+    let file = seam_cases::catalogue::case("v-notch-bend", &[late, coarse]).unwrap();
+    let result = seam_cases::study::run(&file, Tier::Quick, &Checkpoints::default()).unwrap().result;
+    let substitution = result.effects.iter().find(|e| e.name == "substitution").unwrap();
+    let indicator = substitution.indicator.as_ref().unwrap();
+    assert!(
+        substitution.on && substitution.called_for && indicator.value > indicator.limit,
+        "{substitution:?}"
+    );
+    assert!(substitution.why.contains("lower the trigger"), "{}", substitution.why);
+}

@@ -78,6 +78,7 @@ fn growth(fill: &dyn Fn(Block, Matter) -> Result<Filled>) -> Growth<'_> {
         name: "zone".to_owned(),
         body: "beam".to_owned(),
         criterion: Criterion { indicator, trigger: 0.5, buffer_m: 0.8, memory: Memory::Irreversible },
+        stride_m: 0.0,
         holds: None,
         through: [false; 3],
         most: 20,
@@ -134,6 +135,24 @@ fn the_adaptive_path_is_that_of_particles_everywhere() {
         let gap = event.energy_released - event.fracture_energy - event.radiated_energy;
         assert!(gap.abs() <= 1e-10 * 0.5 * event.force * event.displacement, "{event:?}");
     }
+}
+
+/// A stride lets the region grow less often, and the crack is the same.
+#[test]
+fn a_region_with_a_stride_grows_less_often() {
+    let run = |stride_m: f64| {
+        let growth = Growth { stride_m, ..growth(&fill) };
+        Adaptive::new(&elements(), Vec::new(), Some(growth), options()).unwrap().run().unwrap()
+    };
+    let ((step, often), (stride, seldom)) = (run(0.0), run(1.0));
+    assert!(seldom.len() < often.len(), "{} {}", seldom.len(), often.len());
+    let ([_, peak], [_, reference]) = (stride.peak().unwrap(), step.peak().unwrap());
+    assert!((peak / reference - 1.0).abs() < 0.02, "{peak} {reference}");
+    let distance = apart(&broken(&stride), &broken(&step));
+    assert!(distance <= 2.0 * SPACING, "{distance}");
+    let refused = Growth { stride_m: -1.0, ..growth(&fill) };
+    let error = Adaptive::new(&elements(), Vec::new(), Some(refused), options()).err().unwrap();
+    assert!(error.to_string().contains("stride_m"), "{error}");
 }
 
 /// Bonds that broke before the region grew are broken after it, at the same places.

@@ -9,7 +9,7 @@ use crate::scene::de::De;
 use seam_solver::dem::arrangement::Matter;
 use seam_solver::dem::block::Block;
 use seam_solver::dem::bonding::BondRecipe;
-use seam_solver::dem::lattice::{LatticeKind, lattice};
+use seam_solver::dem::lattice::{Fit, LatticeKind, fit, lattice};
 use seam_solver::error::Error;
 use seam_solver::space::Vec3;
 
@@ -21,6 +21,8 @@ pub struct Blueprint {
     cell: Vec3,
     matter: Matter,
     recipe: BondRecipe,
+    /// The table that holds the section `de`.
+    key: String,
 }
 
 /// A box may miss the lines of the lattice by this share of a cell: rounding.
@@ -42,13 +44,11 @@ impl Blueprint {
         let elasticity = context.elasticity(body)?;
         let matter = Matter { density: elasticity.density, thickness_m: context.hypothesis.thickness() };
         let rows = de.rows.count(context.values, 1, &format!("{key}.de.rows"))?;
-        let lattice = lattice(kind, whole, rows, matter)?;
-        limit(context, key, &lattice.arrangement)?;
-        let spacing = 2.0 * lattice.arrangement.particles.radius[0];
-        let made = Made::Lattice(Unit { kind, spacing, stretch: lattice.stretch });
+        let Fit { stretch, cell, spacing, .. } = fit(kind, whole, rows)?;
+        let made = Made::Lattice(Unit { kind, spacing, stretch });
         let target = Target { elasticity, hypothesis: context.hypothesis, thickness_m: matter.thickness_m };
         let recipe = recipe(context, key, de, &made, &target, notes)?;
-        Ok(Blueprint { kind, whole, cell: lattice.cell, matter, recipe })
+        Ok(Blueprint { kind, whole, cell, matter, recipe, key: key.to_owned() })
     }
 
     /// Fills a box between lines of the lattice.
@@ -75,6 +75,7 @@ impl Blueprint {
         }
         let rows = (block.sides().y / self.cell.y).round() as usize;
         let lattice = lattice(self.kind, *block, rows, self.matter)?;
+        limit(context, &self.key, &lattice.arrangement)?;
         bonded(context, &lattice.arrangement, &lattice.pairs, &self.recipe)
     }
 }

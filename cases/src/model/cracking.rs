@@ -59,6 +59,7 @@ fn follow<T>(
     while path.advance()?.is_some() {
         watch(&path);
     }
+    built.calibration += context.calibration.get();
     Ok(end(path))
 }
 
@@ -101,6 +102,10 @@ fn growth<'a>(
         name: name.to_owned(),
         body: switch.body.clone(),
         criterion: solver_criterion(context, criterion, &key)?,
+        stride_m: match &criterion.stride_m {
+            Some(stride) => stride.value(context.values, &format!("{key}.stride_m"))?,
+            None => 0.0,
+        },
         holds,
         through: through(criterion),
         most: criterion.most.count(context.values, 1, &format!("{key}.most"))?,
@@ -124,7 +129,7 @@ fn fill(
         let filled = blueprint.fill(context, block)?;
         let key = format!("bodies.{}", switch.body);
         let filled = particles::without_notch(context, &key, body, filled, block)?;
-        let law = failure::of_body(context, &switch.body);
+        let law = failure::of_body(&context.scene.failure, &switch.body);
         let law = law.map(|given| failure::law(context, given, &filled, &BTreeSet::new())).transpose()?;
         Ok((filled, law))
     };

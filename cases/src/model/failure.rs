@@ -13,11 +13,11 @@ use seam_solver::failure::virial::{Measure, Release, VirialStress};
 use seam_solver::failure::{self, FailureLaw, FailureRecipe, Place};
 use seam_solver::model::{Part, PointValue};
 use seam_solver::space::Vec3;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
-/// The law of a body; its name in the scene first.
-pub fn of_body<'a>(context: &'a Context, body: &str) -> Option<(&'a str, &'a Failure)> {
-    context.scene.failure.iter().find(|(_, law)| law.body == body).map(|(name, law)| (name.as_str(), law))
+/// The law of a body among some; its name in the scene first.
+pub fn of_body<'a>(laws: &'a BTreeMap<String, Failure>, body: &str) -> Option<(&'a str, &'a Failure)> {
+    laws.iter().find(|(_, law)| law.body == body).map(|(name, law)| (name.as_str(), law))
 }
 
 /// Makes a law for particles of a body, of which `held` are held or loaded.

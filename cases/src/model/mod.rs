@@ -35,6 +35,8 @@ pub struct Built {
     pub held_by: Vec<String>,
     /// Laws by which bonds break, with the part of each.
     pub laws: Vec<(usize, Failure)>,
+    /// The same for strengths that the list of effects leaves out.
+    pub laws_left_out: Vec<(usize, Failure)>,
     /// Packings, calibrations: what a reader must know.
     pub notes: Vec<String>,
     /// Work of the calibrations, whether they were done now or remembered.
@@ -128,16 +130,22 @@ fn assemble(file: &SceneFile) -> std::result::Result<Built, Refusal> {
     let loads = conditions::loads(&context, &parts)?;
     failure::check_zones(&context, &parts, &supports, &loads)?;
     let (held_by, supports): (_, Vec<PointValue>) = supports.into_iter().unzip();
-    let mut laws = Vec::new();
-    for (part, filled) in &particles_of {
-        if let Some(given) = failure::of_body(&context, parts[*part].name()) {
-            let held = supports.iter().chain(&loads).filter(|v| v.part == *part).map(|v| v.point).collect();
-            laws.push((*part, failure::law(&context, given, filled, &held)?));
+    let laws_among = |all| -> std::result::Result<Vec<(usize, Failure)>, Refusal> {
+        let mut laws = Vec::new();
+        for (part, filled) in &particles_of {
+            if let Some(given) = failure::of_body(all, parts[*part].name()) {
+                let held =
+                    supports.iter().chain(&loads).filter(|v| v.part == *part).map(|v| v.point).collect();
+                laws.push((*part, failure::law(&context, given, filled, &held)?));
+            }
         }
-    }
+        Ok(laws)
+    };
+    let laws = laws_among(&context.scene.failure)?;
+    let laws_left_out = laws_among(&context.scene.left_out.failure)?;
     let model = Model { space: context.space, parts, ties, supports, loads };
     let (calibration, packing) = (context.calibration.get(), context.packing.get());
-    Ok(Built { model, held_by, laws, notes, calibration, packing })
+    Ok(Built { model, held_by, laws, laws_left_out, notes, calibration, packing })
 }
 
 fn check_size(scene: &Scene, part: &Part) -> std::result::Result<(), Fault> {

@@ -128,7 +128,7 @@ pub fn bonded(
     recipe: &BondRecipe,
 ) -> Result<Filled, Refusal> {
     let network = bonding::bond_network(arrangement, pairs, recipe)?;
-    let asked = !context.scene.failure.is_empty();
+    let asked = !context.scene.failure.is_empty() || !context.scene.left_out.failure.is_empty();
     Ok(Filled { network, facets: asked.then(|| section::facets(arrangement, pairs)).flatten() })
 }
 

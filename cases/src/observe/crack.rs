@@ -7,6 +7,7 @@ use seam_solver::cracking::adaptive::{Adaptive, Grown};
 use seam_solver::cracking::{Event, Exchange, Outcome, envelope};
 use seam_solver::model::{Model, Numbering};
 use seam_solver::space::Vec3;
+use seam_solver::work::Work;
 
 /// Share of the first stiffness at which a picture is taken between the peak and the end.
 const HALF_WAY: f64 = 0.25;
@@ -43,6 +44,8 @@ pub struct Cracked {
     pub resultant: f64,
     /// Pictures before the end.
     pub shots: Vec<Shot>,
+    /// Work of calibrating the bonds.
+    pub calibration: Work,
 }
 
 impl Recorder {
@@ -77,12 +80,13 @@ impl Recorder {
     }
 
     /// The end of a path.
-    pub fn end(self, outcome: Outcome, grown: Vec<Grown>) -> Cracked {
+    pub fn end(self, outcome: Outcome, grown: Vec<Grown>, calibration: Work) -> Cracked {
         let peak = self.peak.map(|(_, shot)| shot);
         // Where the first failure is the peak, one picture is enough.
         let came = self.came.filter(|came| peak.as_ref().is_none_or(|peak| peak.u != came.u));
         let shots = [came, peak, self.half_way];
-        Cracked { outcome, grown, resultant: self.resultant, shots: shots.into_iter().flatten().collect() }
+        let shots = shots.into_iter().flatten().collect();
+        Cracked { outcome, grown, resultant: self.resultant, shots, calibration }
     }
 }
 
@@ -130,7 +134,7 @@ impl Cracked {
                 let jumps = self.grown.iter().map(|g| g.exchange.jump());
                 scalar(jumps.reduce(|a, b| if a.abs() >= b.abs() { a } else { b }).unwrap_or(0.0))
             }
-            Read::CountedWork => scalar(outcome.work.total() as f64),
+            Read::CountedWork => scalar((outcome.work.total() + self.calibration.total()) as f64),
             Read::ForceDisplacement => Some(Reading::Curve(self.envelope())),
             Read::CrackPath => Some(Reading::Curve(self.places())),
             _ => None,
@@ -157,6 +161,14 @@ impl Cracked {
             )
         };
         self.grown.iter().enumerate().map(of).chain([end]).collect()
+    }
+
+    /// Load at which the first particles came, over that of the first failure after it; `None` where particles came otherwise. Above one
+    /// the criterion was met too late: bonds would have failed before, and the path had to step back.
+    pub fn lateness(&self) -> Option<f64> {
+        let first = self.grown.first().filter(|grown| grown.exchange.after_events == 0)?;
+        let failure = self.outcome.events.first()?;
+        (failure.force > 0.0).then(|| first.exchange.force[0] / failure.force)
     }
 
     /// Force (N) against displacement (m) under displacement control.

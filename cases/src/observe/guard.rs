@@ -2,20 +2,39 @@
 
 use crate::error::Result;
 use crate::file::SceneFile;
-use crate::model::switches_left_out;
+use crate::model::{Built, switches_left_out};
+use crate::observe::curve::nan_max;
+use seam_solver::failure::Failure;
 use seam_solver::fem::continuum::Continuum;
 use seam_solver::model::{Model, Numbering, Part};
 use seam_solver::space::Vec3;
 use seam_solver::transfer::criterion::Criterion;
+use serde::{Deserialize, Serialize};
 
 /// The largest values over all outputs.
-#[derive(Debug, Clone, Default)]
-pub struct Guard {
+#[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
+pub struct Seen {
     /// Of particles and of elements at their centres, in rad.
     pub largest_rotation: f64,
     /// Of the switches that were left out: indicator over trigger, or load or time over that of the switch.
     pub nearest_switch: Option<f64>,
+    /// Of the bonds whose strength was left out: stress over strength.
+    pub largest_demand: Option<f64>,
+    /// Strain energy, in J.
+    pub strain: f64,
+    /// Energy that broken pairs which have closed would hold if they were bonds, in J: `Σ ½ k_n δ²`. Of a run in time at its end.
+    pub closed: f64,
+}
+
+/// Watches a run.
+#[derive(Debug, Clone, Default)]
+pub struct Guard {
+    /// What it has seen.
+    pub seen: Seen,
     left_out: Vec<LeftOut>,
+    /// Strengths that were left out, with the part of each.
+    laws: Vec<(usize, Failure)>,
+    demands: Vec<f64>,
 }
 
 /// A switch that was left out.
@@ -34,11 +53,11 @@ impl Guard {
     ///
     /// # Errors
     /// A switch that was left out and is not sound.
-    pub fn new(file: &SceneFile) -> Result<Self> {
-        Ok(Self { left_out: switches_left_out(file)?, ..Self::default() })
+    pub fn new(file: &SceneFile, built: &Built) -> Result<Self> {
+        Ok(Self { left_out: switches_left_out(file)?, laws: built.laws_left_out.clone(), ..Self::default() })
     }
 
-    /// Looks at a state; time in s.
+    /// Looks at a state with its strain energy, in J; time in s.
     ///
     /// # Errors
     /// An inverted element.
@@ -46,6 +65,7 @@ impl Guard {
         &mut self,
         model: &Model,
         u: &[f64],
+        strain: f64,
         [time, factor]: [f64; 2],
     ) -> seam_solver::error::Result<()> {
         let numbering = Numbering::new(model);
@@ -55,7 +75,16 @@ impl Guard {
                 Part::Continuum(body) => of_elements(body, &u[first..first + body.dof_count()]),
                 Part::Discrete { .. } => of_particles(model, part, &u[first..]),
             };
-            self.largest_rotation = self.largest_rotation.max(turned);
+            self.seen.largest_rotation = self.seen.largest_rotation.max(turned);
+        }
+        self.seen.strain = self.seen.strain.max(strain);
+        self.seen.closed = self.seen.closed.max(closed(model, &numbering, u));
+        for (part, law) in &self.laws {
+            let Some(Part::Discrete { network, .. }) = model.parts.get(*part) else { continue };
+            law.demands_at(network, &u[numbering.offset(*part)..], &mut self.demands);
+            let largest = self.demands.iter().fold(0.0, |m, d| nan_max(m, *d));
+            self.seen.largest_demand =
+                Some(self.seen.largest_demand.map_or(largest, |m| nan_max(m, largest)));
         }
         for left_out in &self.left_out {
             let near = match left_out {
@@ -63,10 +92,29 @@ impl Guard {
                 LeftOut::AtTime(at) => time / at,
                 LeftOut::Criterion(name, criterion) => nearest(model, &numbering, u, name, criterion)?,
             };
-            self.nearest_switch = Some(self.nearest_switch.map_or(near, |before| before.max(near)));
+            self.seen.nearest_switch = Some(self.seen.nearest_switch.map_or(near, |before| before.max(near)));
         }
         Ok(())
     }
+}
+
+/// `Σ ½ k_n δ²` over the broken pairs that are closer than they were, by δ along the line between them.
+fn closed(model: &Model, numbering: &Numbering, u: &[f64]) -> f64 {
+    let dim = model.space.dim();
+    let mut energy = 0.0;
+    for (p, part) in model.parts.iter().enumerate() {
+        let Part::Discrete { network, .. } = part else { continue };
+        let (first, each) = (numbering.offset(p), part.dofs_per_point());
+        let moved = |point: usize, c: usize| u[first + point * each + c];
+        let bonds = &network.bonds;
+        for b in (0..bonds.len()).filter(|&b| bonds.weight[b] == 0.0) {
+            let [i, j] = bonds.ends[b];
+            let n = (network.particles.position[j] - network.particles.position[i]).normalize();
+            let by: f64 = (0..dim).map(|c| n[c] * (moved(i, c) - moved(j, c))).sum();
+            energy += 0.5 * bonds.stiffness[b].kn * by.max(0.0).powi(2);
+        }
+    }
+    energy
 }
 
 fn of_particles(model: &Model, part: &Part, u: &[f64]) -> f64 {
@@ -123,8 +171,9 @@ mod tests {
     #[test]
     fn a_rigid_rotation_is_seen_by_both_sides() {
         let file = catalogue::case("clamped-beam-rotation", &[]).unwrap();
-        let model = model::build(&file).unwrap().model;
-        let numbering = Numbering::new(&model);
+        let built = model::build(&file).unwrap();
+        let model = &built.model;
+        let numbering = Numbering::new(model);
         let angle = 0.03;
         let mut u = vec![0.0; numbering.len()];
         for (p, part) in model.parts.iter().enumerate() {
@@ -141,9 +190,10 @@ mod tests {
             alone.ties.clear();
             alone.parts = vec![model.parts[only].clone()];
             let first = numbering.offset(only);
-            let mut guard = Guard::new(&file).unwrap();
-            guard.watch(&alone, &u[first..], [0.0, 1.0]).unwrap();
-            assert!((guard.largest_rotation - angle).abs() < 1e-12, "{}: {}", only, guard.largest_rotation);
+            let mut guard = Guard::new(&file, &built).unwrap();
+            guard.watch(&alone, &u[first..], 0.0, [0.0, 1.0]).unwrap();
+            let seen = guard.seen.largest_rotation;
+            assert!((seen - angle).abs() < 1e-12, "{only}: {seen}");
         }
     }
 }

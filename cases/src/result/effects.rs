@@ -15,10 +15,10 @@ pub struct EffectUse {
     pub why: String,
     /// Work done for it alone; exactly zero when off.
     pub counter: u64,
-    /// Whether it was left out although the scene calls for it: the result is then not trusted.
+    /// Whether it was left out although the scene calls for it, or came when it was too late: the result is then not trusted.
     #[serde(default)]
     pub called_for: bool,
-    /// What tells whether it may be left out; `null` where it is on, or nothing could call for it.
+    /// What tells whether it may be left out, or that it came too late; `null` where nothing could tell.
     #[serde(default)]
     pub indicator: Option<Indicator>,
     /// Variants of the scene that it was left out in; none for the scene itself.

@@ -57,6 +57,9 @@ fn while_cracking(scene: &Scene, switch: &Switch, values: &Values, key: &str) ->
         let message = "a region that grows is filled anew, and a random packing would not be the same";
         return Err(Fault::new(format!("{key}.de.arrangement"), message, "take a lattice"));
     }
+    if let Some(stride) = &criterion.stride_m {
+        at_least_zero(stride, values, &format!("{key}.criterion.stride_m"))?;
+    }
     criterion.holds.as_ref().map_or(Ok(()), |holds| {
         check_box(holds, scene.hypothesis.space(), values, &format!("{key}.criterion.holds"))
     })
@@ -94,6 +97,10 @@ fn when(dynamics: &Dynamics, switch: &Switch, values: &Values, key: &str) -> Che
         let key = format!("{key}.criterion");
         if criterion.every_s.is_none() {
             return Err(Fault::new(key, "it is not said how often it is asked", "give every_s, in s"));
+        }
+        if criterion.stride_m.is_some() {
+            let message = "only a region that grows while it cracks grows in strides";
+            return Err(Fault::new(format!("{key}.stride_m"), message, "remove it, or widen buffer_m"));
         }
         if criterion.holds.is_some() {
             let message = "only a region that grows while it cracks holds a box from the start";

@@ -24,6 +24,13 @@ pub struct Contact {
     pub stiffness_ratio: Number,
 }
 
+impl Contact {
+    /// Whether a coefficient of friction is given.
+    pub fn has_friction(&self) -> bool {
+        self.friction != frictionless()
+    }
+}
+
 fn frictionless() -> Number {
     Number::Literal(0.0)
 }

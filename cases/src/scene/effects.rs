@@ -2,7 +2,9 @@
 //! effect on or off, whatever the tables say.
 
 use super::Scene;
+use super::contact::Contact;
 use super::dynamics::{Damping, Dynamics, Rotations, Stepping};
+use super::failure::Failure;
 use super::number::Number;
 use super::switch::Switch;
 use crate::error::Fault;
@@ -31,6 +33,12 @@ pub struct LeftOut {
     pub damping: Option<Damping>,
     /// The switches.
     pub switches: BTreeMap<String, Switch>,
+    /// The strengths.
+    pub failure: BTreeMap<String, Failure>,
+    /// The law of contact.
+    pub contact: Option<Contact>,
+    /// The coefficient of friction of contacts that are on.
+    pub friction: Option<Number>,
 }
 
 impl Scene {
@@ -50,6 +58,7 @@ impl Scene {
             ("rotation-coupling", coupled),
             ("bond-failure", !self.failure.is_empty()),
             ("contact", self.contact.is_some()),
+            ("friction", self.contact.as_ref().is_some_and(Contact::has_friction)),
             ("damping", dynamics.is_some_and(|d| d.damping.is_some())),
             ("substitution", !self.switches.is_empty()),
         ];
@@ -76,7 +85,11 @@ impl Scene {
         let on = |name: &str| self.effects.iter().any(|e| e == name);
         let [inertia, finite, coupling] = ["inertia", "finite-rotation", "rotation-coupling"].map(on);
         let [damping, substitution] = ["damping", "substitution"].map(on);
-        let given = [!self.failure.is_empty(), self.contact.is_some(), self.contact.is_some()];
+        let given = [
+            !self.failure.is_empty(),
+            self.contact.is_some(),
+            self.contact.as_ref().is_some_and(Contact::has_friction),
+        ];
         for (name, given) in ["bond-failure", "contact", "friction"].into_iter().zip(given) {
             if on(name) && !given {
                 return Err(Fault::new(
@@ -94,6 +107,7 @@ impl Scene {
                 mend,
             ));
         }
+        self.turn_failure(["bond-failure", "contact", "friction"].map(on))?;
         self.turn_substitution(substitution)?;
         self.turn_coupling(coupling)?;
         match &mut self.dynamics {
@@ -110,6 +124,27 @@ impl Scene {
             )),
             None => Ok(()),
         }
+    }
+
+    /// Particles touch once they have lost a bond, and slide where they touch: each needs the one before.
+    fn turn_failure(&mut self, [failure, contact, friction]: [bool; 3]) -> Result<(), Fault> {
+        let pairs =
+            [(contact, failure, "contact", "bond-failure"), (friction, contact, "friction", "contact")];
+        if let Some((.., name, first)) = pairs.into_iter().find(|(on, first, ..)| *on && !first) {
+            let message = format!("{name} acts on what has failed, which needs {first}");
+            return Err(Fault::new("effects", message, format!("add \"{first}\", or leave it out")));
+        }
+        // A path of events is nothing but failure: the check of strengths says so.
+        if !failure && self.cracking.is_none() {
+            self.left_out.failure = std::mem::take(&mut self.failure);
+        }
+        if !contact {
+            self.left_out.contact = self.contact.take();
+        }
+        if let Some(contact) = self.contact.as_mut().filter(|contact| !friction && contact.has_friction()) {
+            self.left_out.friction = Some(std::mem::replace(&mut contact.friction, Number::Literal(0.0)));
+        }
+        Ok(())
     }
 
     fn turn_substitution(&mut self, on: bool) -> Result<(), Fault> {

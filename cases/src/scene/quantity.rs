@@ -2,9 +2,11 @@
 
 use super::Tier;
 use super::number::Number;
+use crate::error::Fault;
 use crate::result::ReferenceKind;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 
 /// A number read off the solution: the value of a scalar probe, or the error of a curve.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -23,6 +25,10 @@ pub struct Quantity {
     /// Variants of the scene it is read off; the scene itself if there are none.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub variants: Vec<String>,
+    /// Measure it once for every combination of one variant of each of these lists: as a quantity `NAME-variant-variant…` of its own, with
+    /// the combination before `variants`, and before the variants of its reference.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub across: Vec<Vec<String>>,
     /// Histories only: which of its values; the one at the end if neither this nor `norm` is given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub take: Option<Take>,
@@ -134,4 +140,76 @@ pub struct Accept {
     pub interval: Option<[Number; 2]>,
     /// Why it is as wide as it is.
     pub why: String,
+}
+
+/// Puts the members of a grid in the place of each quantity that is measured across lists of variants.
+///
+/// # Errors
+/// A list without variants; a member with the name of another quantity.
+pub fn spread(quantities: &mut BTreeMap<String, Quantity>) -> Result<(), Fault> {
+    for (name, grid) in quantities.extract_if(.., |_, q| !q.across.is_empty()).collect::<Vec<_>>() {
+        let key = format!("quantities.{name}.across");
+        if let Some(empty) = grid.across.iter().position(Vec::is_empty) {
+            let mend = "name variants, or remove the list";
+            return Err(Fault::new(format!("{key}[{empty}]"), "there is nothing to choose from", mend));
+        }
+        let mut combinations = vec![Vec::new()];
+        for list in &grid.across {
+            let with = |c: &Vec<String>| {
+                list.iter().map(|v| [c.clone(), vec![v.clone()]].concat()).collect::<Vec<_>>()
+            };
+            combinations = combinations.iter().flat_map(with).collect();
+        }
+        for combination in combinations {
+            let mut member = Quantity { across: Vec::new(), ..grid.clone() };
+            member.label = format!("{}, {}", grid.label, combination.join(", "));
+            member.variants = [combination.clone(), grid.variants.clone()].concat();
+            if let Some(own) = member.reference.as_mut().and_then(|r| r.variants.as_mut()) {
+                *own = [combination.clone(), own.clone()].concat();
+            }
+            let id = format!("{name}-{}", combination.join("-"));
+            if quantities.insert(id.clone(), member).is_some() {
+                let message = format!("a member of the grid is called '{id}', as another quantity is");
+                return Err(Fault::new(key, message, "rename one of them"));
+            }
+        }
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+
+    fn quantity(more: serde_json::Value) -> Quantity {
+        let mut all = json!({ "label": "Peak", "probe": "peak" });
+        all.as_object_mut().unwrap().extend(more.as_object().unwrap().clone());
+        serde_json::from_value(all).unwrap()
+    }
+
+    #[test]
+    fn a_grid_becomes_its_members() {
+        let reference = json!({ "kind": "own-run", "variants": ["whole"], "source": "all" });
+        let across = json!([["a", "b"], ["x", "y", "z"]]);
+        let grid = quantity(json!({ "across": across, "variants": ["fine"], "reference": reference }));
+        let mut all = BTreeMap::from([("peak".to_owned(), grid), ("one".to_owned(), quantity(json!({})))]);
+        spread(&mut all).unwrap();
+        assert_eq!(all.len(), 7);
+        let member = &all["peak-b-z"];
+        assert_eq!(member.variants, ["b", "z", "fine"]);
+        assert_eq!(member.reference.as_ref().unwrap().variants.as_ref().unwrap(), &["b", "z", "whole"]);
+        assert_eq!(member.label, "Peak, b, z");
+        assert!(all.values().all(|q| q.across.is_empty()));
+    }
+
+    #[test]
+    fn a_grid_without_members_or_with_a_taken_name_is_refused() {
+        let across = |across: serde_json::Value| quantity(json!({ "across": across }));
+        let mut empty = BTreeMap::from([("peak".to_owned(), across(json!([["a"], []])))]);
+        assert_eq!(spread(&mut empty).unwrap_err().key, "quantities.peak.across[1]");
+        let taken = ("peak-a".to_owned(), quantity(json!({})));
+        let mut taken = BTreeMap::from([("peak".to_owned(), across(json!([["a"]]))), taken]);
+        assert!(spread(&mut taken).unwrap_err().message.contains("'peak-a'"));
+    }
 }

@@ -58,6 +58,9 @@ pub struct Criterion {
     /// In time: how often it is asked, in s. While cracking it is asked before every event.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub every_s: Option<Number>,
+    /// While cracking: when the region has to grow, it takes elements this much farther than it has to, in m, and grows less often.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub stride_m: Option<Number>,
     /// While cracking: the region always holds this box, e.g. a notch.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub holds: Option<Cuboid>,

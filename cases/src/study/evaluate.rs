@@ -17,6 +17,7 @@ use crate::scene::cracking::Cracking;
 use crate::scene::dynamics::Dynamics;
 use crate::scene::probe::{Probe, Read, Where};
 use crate::scene::quantity::{Norm, Quantity, Zone};
+use seam_solver::contact::ContactEnergy;
 use seam_solver::dynamics::breaking::Loss;
 use seam_solver::model::Numbering;
 use seam_solver::simulation::{Energies, Outcome};
@@ -54,6 +55,8 @@ pub struct Course {
     pub switches: Switches,
     /// Bonds that lost stiffness, each time counted.
     pub losses: usize,
+    /// Energies of the contacts at the end.
+    pub contact: ContactEnergy,
 }
 
 impl Course {
@@ -185,8 +188,8 @@ fn stand(file: &SceneFile, built: Built) -> Result<Solved> {
     supports.follow(&built.model, 0);
     let by_probe = read(file, &built, &solution, &supports, |_| true)?;
     let readings = Readings { by_probe, first_switch: None };
-    let mut guard = Guard::new(file)?;
-    guard.watch(&built.model, &solution.u, [0.0, 1.0]).map_err(|e| file.solver(e))?;
+    let mut guard = Guard::new(file, &built)?;
+    guard.watch(&built.model, &solution.u, solution.energy, [0.0, 1.0]).map_err(|e| file.solver(e))?;
     Ok(Solved { built, solution, readings, course: None, cracked: None, guard, seconds: 0.0 })
 }
 
@@ -197,19 +200,24 @@ fn go(
     (checkpoints, start): (&Checkpoints, Instant),
 ) -> Result<Solved> {
     let mut recorder = Recorder::new(file, Supports::new(&built));
-    let mut guard = Guard::new(file)?;
+    let mut guard = Guard::new(file, &built)?;
     let checkpoint = checkpoints.kept(file)?.map(|kept| {
         recorder.histories = kept.histories;
-        (guard.largest_rotation, guard.nearest_switch) = kept.guarded;
+        guard.seen = kept.seen;
         kept.run
     });
     let outcome = time::run(file, dynamics, &mut built, checkpoint.as_deref(), &mut |snapshot| {
         let state = snapshot.state;
-        guard.watch(snapshot.model, &state.u, [state.time, snapshot.factor]).map_err(|e| file.solver(e))?;
+        let (strain, now) = (snapshot.energies.strain, [state.time, snapshot.factor]);
+        guard.watch(snapshot.model, &state.u, strain, now).map_err(|e| file.solver(e))?;
         recorder.watch(snapshot)?;
         checkpoints.keep(file, (&recorder.histories, &guard), snapshot)
     })?;
-    let Outcome { model, state, energies, switches, losses, notes, work, switch_seconds, .. } = outcome;
+    let Outcome { model, state, energies, switches, losses, contact, notes, work, switch_seconds, .. } =
+        outcome;
+    // Snapshots show all bonds; the end knows which have failed.
+    let now = [state.time, time::factor(file, dynamics)?.at(state.time)];
+    guard.watch(&model, &state.u, energies.strain, now).map_err(|e| file.solver(e))?;
     let share_of_time = switch_seconds / start.elapsed().as_secs_f64();
     let switches = Switches { reports: switches, extent: extent(&model), share_of_time };
     built.model = model;
@@ -241,7 +249,7 @@ fn go(
     let Histories { curves, energies, .. } = recorder.histories;
     let curves = curves.into_iter().map(|(name, curve)| (name, Reading::Curve(curve)));
     by_probe.extend(curves);
-    let course = Course { energies, switches, losses: losses.len() };
+    let course = Course { energies, switches, losses: losses.len(), contact };
     let readings = Readings { by_probe, first_switch: course.first_switch() };
     Ok(Solved { built, solution, readings, course: Some(course), cracked: None, guard, seconds: 0.0 })
 }
@@ -269,7 +277,7 @@ fn crack(file: &SceneFile, cracking: &Cracking, mut built: Built) -> Result<Solv
         })?;
     held.follow(&model, grown.len());
     built.model = model;
-    let cracked = recorder.end(outcome, grown);
+    let cracked = recorder.end(outcome, grown, built.calibration);
     let solution = Solution {
         numbering: Numbering::new(&built.model),
         u,
@@ -288,9 +296,9 @@ fn crack(file: &SceneFile, cracking: &Cracking, mut built: Built) -> Result<Solv
         by_probe.extend(cracked.read(probe, limit).map(|reading| (name.clone(), reading)));
     }
     let readings = Readings { by_probe, first_switch: None };
-    let mut guard = Guard::new(file)?;
+    let mut guard = Guard::new(file, &built)?;
     let factor = cracked.outcome.events.last().map_or(1.0, |e| e.factor);
-    guard.watch(&built.model, &solution.u, [0.0, factor]).map_err(|e| file.solver(e))?;
+    guard.watch(&built.model, &solution.u, solution.energy, [0.0, factor]).map_err(|e| file.solver(e))?;
     Ok(Solved { built, solution, readings, course: None, cracked: Some(cracked), guard, seconds: 0.0 })
 }
 

@@ -49,11 +49,15 @@ fn plot(study: &Study, solved: &Solved, name: &str, (probe, curve): (&Probe, &Cu
         _ if study.file.scene.switches.is_empty() => "coupled",
         _ => "switched",
     };
-    let role = if curve.axis == Axis::Places { Role::Data } else { Role::Model };
+    // Places follow no order that a line could show.
+    let [role, of_reference] = match curve.axis {
+        Axis::Places => [Role::Data; 2],
+        _ => [Role::Model, Role::Reference],
+    };
     let mut all = vec![series(own, role, curve)];
     let mut against = ReferenceKind::Exact;
     for (source, curve) in own_runs(study, name)? {
-        all.push(series(&source, Role::Reference, &curve));
+        all.push(series(&source, of_reference, &curve));
         against = ReferenceKind::OwnRun;
     }
     if study.file.scene.reference.is_some() && probe.read.has_counterpart() {

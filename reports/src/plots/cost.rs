@@ -57,7 +57,8 @@ fn figure(
     }
     for (i, setting) in group.iter().enumerate() {
         let ink = Ink::series(i);
-        legend.push(LegendEntry::line(ink, &setting.name));
+        let missing = if setting.points.iter().all(|p| p.error.is_none()) { " (none measured)" } else { "" };
+        legend.push(LegendEntry::line(ink, format!("{}{missing}", setting.name)));
         for points in unbroken(setting, cost) {
             layers.push(Layer::Line { ink, points: points.clone() });
             layers.push(Layer::Dots { ink, points, radius: 8 });
@@ -119,8 +120,8 @@ pub fn beside(diagram: &CostDiagram, race: &Race) -> Option<Figure> {
     let from = if race.recorded { format!("recorded on {}", race.date) } else { "of this run".to_owned() };
     let waits = match others.iter().any(|other| other.unit == unit("network")) {
         true => {
-            " A code with explicit steps has to wait for an equilibrium: it is given the least it can take, a lowest mode \
-                 damped critically, to 0.1 %."
+            " Where the scene stands still, a code with explicit steps has to wait for rest: it is given the least it can \
+                 take, a lowest mode damped critically, to 0.1 %."
         }
         false => "",
     };
@@ -164,7 +165,7 @@ fn unbroken(setting: &CostSetting, cost: Cost) -> Vec<Vec<[f64; 2]>> {
 fn cheapest(diagram: &CostDiagram, cost: Cost) -> String {
     let failed = diagram.settings.iter().flat_map(|s| &s.points).filter(|p| p.error.is_none()).count();
     let gaps = if failed > 0 {
-        format!(" {} failed and left a gap.", crate::format::count(failed, "run"))
+        format!(" {} left a gap: failed, or too long to try.", crate::format::count(failed, "run"))
     } else {
         String::new()
     };

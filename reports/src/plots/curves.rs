@@ -20,7 +20,7 @@ pub fn curves(plot: &Plot) -> Option<Figure> {
         let width = percent(plot.band.unwrap_or_default());
         legend.push(LegendEntry::area(Ink::Band, format!("reference ± {width}")));
     }
-    let mut models = 0;
+    let (mut models, mut clouds) = (0, 0);
     let mut references = [Ink::Reference].into_iter();
     for series in all() {
         let points = points(series);
@@ -37,8 +37,11 @@ pub fn curves(plot: &Plot) -> Option<Figure> {
                 layers.push(Layer::Line { ink, points });
             }
             Role::Data => {
-                legend.push(LegendEntry::dot(Ink::Data, &series.name));
-                layers.push(Layer::Dots { ink: Ink::Data, points, radius: 8 });
+                // Further clouds are smaller, so that dots on the same place are both seen.
+                let (ink, radius) = if clouds == 0 { (Ink::Data, 8) } else { (Ink::series(clouds - 1), 5) };
+                clouds += 1;
+                legend.push(LegendEntry::dot(ink, &series.name));
+                layers.push(Layer::Dots { ink, points, radius });
             }
         }
     }

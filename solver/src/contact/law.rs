@@ -76,6 +76,8 @@ pub(super) struct TangentialForce {
     pub stored: f64,
     /// Energy spent by sliding in this step.
     pub slid: f64,
+    /// How far it slid, in m.
+    pub way: f64,
 }
 
 impl ContactLaw {
@@ -177,17 +179,14 @@ impl ContactLaw {
         let micro = 0.5 * before.stiffness * before.stretch.norm_squared() - 0.5 * k * kept.norm_squared();
         let stretch = kept + slide;
         let (trial, most) = (k * stretch.norm(), self.friction * normal);
-        let (held, slid) = if trial <= most {
-            (stretch, 0.0)
-        } else {
-            let held = stretch * (most / trial);
-            (held, most * (stretch - held).norm())
-        };
+        let held = if trial <= most { stretch } else { stretch * (most / trial) };
+        let way = (stretch - held).norm();
         TangentialForce {
             force: k * held,
             spring: Spring { stretch: held, stiffness: k },
             stored: 0.5 * k * held.norm_squared(),
-            slid: slid + micro,
+            slid: most * way + micro,
+            way,
         }
     }
 }

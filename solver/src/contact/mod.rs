@@ -43,6 +43,8 @@ pub struct ContactEnergy {
     pub damped: f64,
     /// Spent by sliding so far.
     pub friction: f64,
+    /// `∫F_n |ds|` over all sliding so far: what friction of coefficient one would spend on the same way.
+    pub sliding: f64,
 }
 
 impl Contacts {
@@ -147,6 +149,7 @@ impl Contacts {
             self.energy.stored += normal.stored + tangential.stored;
             self.energy.damped += normal.damping_power * dt;
             self.energy.friction += tangential.slid;
+            self.energy.sliding += normal.force * tangential.way;
             // On particle i: pushed back along −n, dragged along with the slide of j.
             let force = tangential.force - normal.force * n;
             for (p, force, arm) in [(i, force, arms[0] * n), (j, -force, -arms[1] * n)] {

@@ -19,11 +19,11 @@ use crate::failure::Failure;
 use crate::fem::continuum::Continuum;
 use crate::model::{Model, Part};
 use crate::space::Vec3;
-use crate::transfer::criterion::{Criterion, Indicator};
+use crate::transfer::criterion::{Criterion, Indicator, buffered};
 use crate::transfer::fields::Mode;
 use crate::transfer::region::Region;
 use crate::transfer::substitution::{Origin, Replaced, Switch, replace_elements};
-use std::collections::BTreeSet;
+use crate::transfer::watch::Watch;
 
 /// Particles for a box, and the law by which they fail.
 #[derive(Debug, Clone)]
@@ -42,6 +42,8 @@ pub struct Growth<'a> {
     pub body: String,
     /// What chooses elements; by stress.
     pub criterion: Criterion,
+    /// When a region has to grow, it takes elements that are this much farther (m) than those it has to: it grows less often.
+    pub stride_m: f64,
     /// The region always holds this box.
     pub holds: Option<Block>,
     /// Axes along which it always reaches through the whole body.
@@ -79,8 +81,12 @@ pub struct Adaptive<'a> {
     /// Index of the body of elements at the start.
     part: usize,
     cracking: Cracking,
-    /// Parts of the present model that are what is left of the body.
-    pieces: Vec<usize>,
+    /// The criterion, ready to be asked of the body as it began; `None` without growth.
+    watch: Option<Watch>,
+    /// Which of its elements are left.
+    left: Vec<bool>,
+    /// Parts of the present model that are what is left of the body, with the node that each of theirs was.
+    pieces: Vec<(usize, Vec<usize>)>,
     discrete: Option<usize>,
     block: Option<Block>,
     grown: Vec<Grown>,
@@ -102,12 +108,20 @@ impl<'a> Adaptive<'a> {
             None => 0,
         };
         let cracking = Cracking::new(model, laws, options)?;
+        let (mut watch, mut left, mut pieces) = (None, Vec::new(), Vec::new());
+        if let (Some(growth), Some(Part::Continuum(body))) = (&growth, model.parts.get(part)) {
+            watch = Some(Watch::new(&growth.criterion, body)?);
+            left = vec![true; body.mesh.cell_count()];
+            pieces = vec![(part, (0..body.mesh.nodes.len()).collect())];
+        }
         Ok(Adaptive {
             start: model.clone(),
             growth,
             part,
             cracking,
-            pieces: vec![part],
+            watch,
+            left,
+            pieces,
             discrete: None,
             block: None,
             grown: Vec::new(),
@@ -132,7 +146,7 @@ impl<'a> Adaptive<'a> {
         while self.cracking.stop().is_none() {
             let first = match self.cracking.next_factor() {
                 Some(factor) => factor,
-                None => match self.first_firing()? {
+                None => match self.first_firing() {
                     Some(factor) => factor,
                     None => break,
                 },
@@ -164,44 +178,61 @@ impl<'a> Adaptive<'a> {
         (self.cracking.outcome(), self.grown)
     }
 
-    /// Load factor at which the criterion first fires, where there are no particles yet.
-    fn first_firing(&mut self) -> Result<Option<f64>> {
-        let Some(growth) = self.growth.as_ref().filter(|g| self.block.is_none() && g.most > 0) else {
-            return Ok(None);
+    /// The criterion's indicator of every element that is left at load factor one; zero of those that are particles.
+    fn indicators(&mut self) -> Vec<f64> {
+        let (Some(watch), Part::Continuum(body)) = (&mut self.watch, &self.start.parts[self.part]) else {
+            return Vec::new();
         };
-        let Some(Part::Continuum(body)) = self.cracking.model().parts.get(self.part) else { return Ok(None) };
-        let first = self.cracking.numbering().offset(self.part);
-        let u = &self.cracking.displacements()[first..first + body.dof_count()];
-        let values = growth.criterion.values(body, u)?;
-        let largest = values.iter().fold(0.0f64, |m, v| m.max(*v));
-        let cells = body.mesh.cell_count();
-        self.cracking.system.work.element_updates += cells as u64;
+        let dim = body.mesh.space.dim();
+        let mut u = vec![0.0; body.dof_count()];
+        for (piece, nodes) in &self.pieces {
+            let first = self.cracking.numbering().offset(*piece);
+            let own = self.cracking.displacements()[first..].chunks_exact(dim);
+            nodes.iter().zip(own).for_each(|(n, own)| u[n * dim..(n + 1) * dim].copy_from_slice(own));
+        }
+        self.cracking.system.work.element_updates += self.left.iter().filter(|left| **left).count() as u64;
+        watch.values(&body.mesh, &u, &self.left).to_vec()
+    }
+
+    /// Load factor at which the criterion first fires, where there are no particles yet.
+    fn first_firing(&mut self) -> Option<f64> {
+        let growth = self.growth.as_ref().filter(|g| self.block.is_none() && g.most > 0)?;
+        let trigger = growth.criterion.trigger;
+        let largest = self.indicators().into_iter().fold(0.0f64, f64::max);
         // Just beyond, so that rounding does not keep it from firing.
-        Ok((largest > 0.0).then(|| growth.criterion.trigger / largest * (1.0 + 1e-12)))
+        (largest > 0.0).then(|| trigger / largest * (1.0 + 1e-12))
     }
 
     /// The region that the criterion asks for at a load factor; `None` if the present one will do.
     fn wanted(&mut self, factor: f64) -> Result<Option<Region>> {
-        let Some(growth) = self.growth.as_ref().filter(|g| self.grown.len() < g.most) else {
+        if self.growth.as_ref().is_none_or(|g| self.grown.len() >= g.most) {
+            return Ok(None);
+        }
+        let values = self.indicators();
+        let (Some(growth), Part::Continuum(body)) = (&self.growth, &self.start.parts[self.part]) else {
             return Ok(None);
         };
-        let mut wanted: Option<Block> = None;
-        let mut asked = 0;
+        // Stress grows with the load, and its indicator with it.
+        let fired: Vec<usize> =
+            (0..values.len()).filter(|&c| factor * values[c] >= growth.criterion.trigger).collect();
         let last = self.cracking.events().last().map_or(&[][..], |event| &event.places);
-        for &piece in &self.pieces {
-            let Part::Continuum(body) = &self.cracking.model().parts[piece] else { continue };
-            let first = self.cracking.numbering().offset(piece);
-            let u = &self.cracking.displacements()[first..first + body.dof_count()];
-            let u: Vec<f64> = u.iter().map(|u| factor * u).collect();
-            asked += body.mesh.cell_count() as u64;
-            let mut chosen = growth.criterion.choose(body, &u, &BTreeSet::new())?;
-            chosen.extend(near(body, last, growth.criterion.buffer_m));
-            let nodes = chosen.iter().flat_map(|&c| body.mesh.cell(c)).map(|&n| body.mesh.nodes[n]);
-            wanted = nodes.map(|x| Block { min: x, max: x }).chain(wanted).reduce(|a, b| a.around(&b));
+        let within = |distance: f64| -> Vec<usize> {
+            let mut chosen = near(body, last, distance);
+            if !fired.is_empty() {
+                chosen.extend(buffered(body, &fired, distance));
+            }
+            chosen.retain(|&c| self.left[c]);
+            chosen
+        };
+        let buffer = growth.criterion.buffer_m;
+        let mut chosen = within(buffer);
+        if !chosen.is_empty() && growth.stride_m > 0.0 && self.block.is_some() {
+            chosen = within(buffer + growth.stride_m);
         }
-        self.cracking.system.work.element_updates += asked;
-        let Some(wanted) = wanted else { return Ok(None) };
-        let Part::Continuum(body) = &self.start.parts[self.part] else { return Ok(None) };
+        let nodes = chosen.iter().flat_map(|&c| body.mesh.cell(c)).map(|&n| body.mesh.nodes[n]);
+        let Some(wanted) = nodes.map(|x| Block { min: x, max: x }).reduce(|a, b| a.around(&b)) else {
+            return Ok(None);
+        };
         let mut whole =
             [self.block, growth.holds].into_iter().flatten().fold(wanted, |all, b| all.around(&b));
         for i in (0..3).filter(|&i| growth.through[i]) {
@@ -242,8 +273,12 @@ impl<'a> Adaptive<'a> {
         let others = self.cracking.laws().iter().filter(|(p, _)| Some(*p) != discrete).cloned();
         let laws = others.chain(failure.map(|law| (filled, law))).collect();
         self.cracking.exchange(&model, laws, factor)?;
-        let is_piece = |o: &Origin| matches!(o, Origin::Piece { part, .. } if *part == self.part);
-        self.pieces = (0..origins.len()).filter(|&p| is_piece(&origins[p])).collect();
+        let piece = |(p, origin): (usize, Origin)| match origin {
+            Origin::Piece { part, nodes } if part == self.part => Some((p, nodes)),
+            _ => None,
+        };
+        self.pieces = origins.into_iter().enumerate().filter_map(piece).collect();
+        region.cells.iter().for_each(|&c| self.left[c] = false);
         (self.discrete, self.block) = (Some(filled), Some(region.block));
         let exchange = self.cracking.exchanges().last().copied();
         self.grown.extend(exchange.map(|exchange| Grown {
@@ -271,6 +306,9 @@ impl<'a> Adaptive<'a> {
 fn check(model: &Model, growth: &Growth) -> Result<usize> {
     let refuse = |message: String| Err(Error::Switch { what: format!("rule '{}'", growth.name), message });
     growth.criterion.check()?;
+    if !(growth.stride_m.is_finite() && growth.stride_m >= 0.0) {
+        return refuse(format!("stride_m = {}; give a length, zero for none", growth.stride_m));
+    }
     if growth.criterion.indicator == Indicator::Error {
         return refuse(
             "the estimated error does not grow with the load, so it tells no load factor; take a stress criterion".to_owned(),

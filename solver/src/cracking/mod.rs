@@ -62,8 +62,6 @@ struct Next {
     site: Site,
     /// At load factor one.
     demand: f64,
-    /// Loads of the bonds of its part at load factor one.
-    forces: Vec<BondForce>,
 }
 
 impl Cracking {
@@ -235,8 +233,8 @@ impl Cracking {
             self.end(Stop::EventLimit);
             return Ok(None);
         }
-        let Some(Next { law, site, forces, .. }) = self.next.take() else { return Ok(None) };
-        let failing = self.fail(law, site, &forces);
+        let Some(Next { law, site, .. }) = self.next.take() else { return Ok(None) };
+        let failing = self.fail(law, site);
         let before = self.system.u.clone();
         let stiffness = self.stiffness;
         let q = factor * self.displacement;
@@ -302,18 +300,13 @@ impl Cracking {
 
     /// The site that fails next; `None` where none is loaded.
     fn next_failure(&mut self) -> Option<Next> {
-        let mut demands = Vec::with_capacity(self.laws.len());
+        let mut demands = vec![Vec::new(); self.laws.len()];
         let mut largest = 0.0f64;
-        for (part, failure) in &self.laws {
+        for ((part, failure), demands) in self.laws.iter().zip(&mut demands) {
             let Part::Discrete { network, .. } = &self.system.model.parts[*part] else { continue };
             let offset = self.system.numbering.offset(*part);
-            // What is left of a bond is in its weight.
-            let intact = vec![1.0; network.bonds.len()];
-            let forces = BondForce::all(network, &self.system.u[offset..], &intact);
-            self.system.work.bond_updates += network.bonds.len() as u64;
-            let of_law = failure.demands(network, &forces);
-            largest = of_law.iter().fold(largest, |m, d| m.max(*d));
-            demands.push((of_law, forces));
+            self.system.work.bond_updates += failure.demands_at(network, &self.system.u[offset..], demands);
+            largest = demands.iter().fold(largest, |m, d| m.max(*d));
         }
         // Without laws nothing has a demand yet.
         if largest == 0.0 {
@@ -324,21 +317,29 @@ impl Cracking {
             return None;
         }
         let least = (1.0 - self.options.tie_tolerance) * largest;
-        for (law, (of_law, forces)) in demands.into_iter().enumerate() {
+        for (law, of_law) in demands.iter().enumerate() {
             if let Some(index) = of_law.iter().position(|d| *d >= least) {
-                let site = self.laws[law].1.site(index);
-                return Some(Next { law, site, demand: of_law[index], forces });
+                return Some(Next { law, site: self.laws[law].1.site(index), demand: of_law[index] });
             }
         }
         None
     }
 
     /// Lets a site fail: its bonds, with what is left of them.
-    fn fail(&mut self, law: usize, site: Site, forces: &[BondForce]) -> Vec<Weakened> {
+    fn fail(&mut self, law: usize, site: Site) -> Vec<Weakened> {
         let (part, failure) = &mut self.laws[law];
         let Part::Discrete { network, .. } = &self.system.model.parts[*part] else { return Vec::new() };
         let offset = self.system.numbering.offset(*part);
-        let bonds = failure.bonds_of(site, network, forces);
+        // A particle lets go by the forces in its bonds; a bond is its own answer.
+        let forces = match site {
+            Site::Particle(_) => {
+                self.system.work.bond_updates += network.bonds.len() as u64;
+                // What is left of a bond is in its weight.
+                BondForce::all(network, &self.system.u[offset..], &vec![1.0; network.bonds.len()])
+            }
+            Site::Bond(_) => Vec::new(),
+        };
+        let bonds = failure.bonds_of(site, network, &forces);
         let weaken = |bond: usize| {
             let integrity = failure.integrity()[bond];
             let before = network.bonds.weight[bond];

@@ -178,7 +178,7 @@ impl System {
             }
         }
         let released = self.prescribed.iter().flatten().count() > held;
-        if !released && self.try_update(bonds)? {
+        if !released && self.try_update(bonds) {
             self.updates += 1;
             return Ok(Holding::Held);
         }
@@ -186,28 +186,28 @@ impl System {
     }
 
     /// Follows by an update; `false` where a new base is called for.
-    fn try_update(&mut self, bonds: &[Weakened]) -> Result<bool> {
+    fn try_update(&mut self, bonds: &[Weakened]) -> bool {
         // Further teeth of bonds that are in the update already cost nothing new.
         let new: usize = bonds.iter().filter(|b| !self.base.has(b.bond())).map(|b| b.modes.len()).sum();
         if self.base.updated_modes() + new > self.updating.most {
-            return Ok(false);
+            return false;
         }
         for weakened in bonds {
             if self.base.has(weakened.bond()) {
                 self.base.lose(weakened);
             } else {
-                self.base.add(weakened, &mut self.work)?;
+                self.base.add(weakened, &mut self.work);
             }
         }
         if !self.base.factorise_update() {
-            return Ok(false);
+            return false;
         }
-        let solution = self.base.updated_solution(&self.load, &mut self.work)?;
+        let solution = self.base.updated_solution(&self.load, &mut self.work);
         let found = solution.is_some();
         if let Some(solution) = solution {
             self.u = solution;
         }
-        Ok(found)
+        found
     }
 
     /// Factorises what is left.

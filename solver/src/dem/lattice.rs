@@ -104,12 +104,24 @@ impl LatticeKind {
     }
 }
 
-/// Fills a box with a lattice of `rows` cells across its height (triangular: row intervals).
-/// All radii are half the neighbour distance of a regular cell of the same volume.
+/// How the cells of a lattice fit a box.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Fit {
+    /// Number of cells along each side; zero along an axis the lattice does not have.
+    pub cells: [usize; 3],
+    /// As [`Lattice::stretch`].
+    pub stretch: [f64; 3],
+    /// As [`Lattice::cell`].
+    pub cell: Vec3,
+    /// Neighbour distance of the regular cell of the same volume, in m: twice the radius of the particles.
+    pub spacing: f64,
+}
+
+/// Fits `rows` cells (triangular: row intervals) into the height of a box, and the nearest number into its other sides.
 ///
 /// # Errors
-/// `rows` of zero, or fewer than two cells along the x of a triangular lattice.
-pub fn lattice(kind: LatticeKind, block: Block, rows: usize, matter: Matter) -> Result<Lattice> {
+/// As [`lattice()`].
+pub fn fit(kind: LatticeKind, block: Block, rows: usize) -> Result<Fit> {
     let pattern = kind.pattern();
     let dim = pattern.space.dim();
     let sides = block.sides();
@@ -139,7 +151,17 @@ pub fn lattice(kind: LatticeKind, block: Block, rows: usize, matter: Matter) -> 
         volume_ratio *= 1.0 + stretch[axis];
     }
     let spacing = pattern.neighbour * height * volume_ratio.powf(1.0 / dim as f64);
+    Ok(Fit { cells, stretch, cell, spacing })
+}
 
+/// Fills a box with a lattice of `rows` cells across its height (triangular: row intervals).
+/// All radii are half the neighbour distance of a regular cell of the same volume.
+///
+/// # Errors
+/// `rows` of zero, or fewer than two cells along the x of a triangular lattice.
+pub fn lattice(kind: LatticeKind, block: Block, rows: usize, matter: Matter) -> Result<Lattice> {
+    let Fit { cells, stretch, cell, spacing } = fit(kind, block, rows)?;
+    let pattern = kind.pattern();
     let n = [0, 1, 2].map(|axis| cells[axis] * pattern.per_cell[axis]);
     let (position, index) = sites(kind, block, n);
     let pairs = pairs(&index, pattern.steps);

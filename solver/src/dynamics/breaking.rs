@@ -111,6 +111,7 @@ impl Breaking {
             sum.stored += e.stored;
             sum.damped += e.damped;
             sum.friction += e.friction;
+            sum.sliding += e.sliding;
         }
         sum
     }

@@ -199,6 +199,35 @@ impl Failure {
         self.integrity[bond]
     }
 
+    /// Demand of a bond under a law of single bonds, at the displacements `u` of a network whose weights are what is left of its bonds.
+    fn demand_at(&self, network: &Network, u: &[f64], b: usize) -> f64 {
+        let stress = BondForce::of(network, b, u, 1.0).stress(&self.sections[b]);
+        match &self.law {
+            Made::BondStress(law) => law.demand(b, stress),
+            Made::Softening(law) => law.demand(b, self.stage[b], stress),
+            Made::Virial(_) => 0.0,
+        }
+    }
+
+    /// As [`Failure::demands`], at the displacements `u` of a network whose weights are what is left of its bonds, in place of what `demands`
+    /// held. Returns how many bonds were looked at: laws of single bonds look at those that may break.
+    pub fn demands_at(&self, network: &Network, u: &[f64], demands: &mut Vec<f64>) -> u64 {
+        let bonds = network.bonds.len();
+        demands.clear();
+        if let Made::Virial(_) = &self.law {
+            let forces = BondForce::all(network, u, &vec![1.0; bonds]);
+            demands.extend(self.demands(network, &forces));
+            return bonds as u64;
+        }
+        demands.resize(bonds, 0.0);
+        let mut seen = 0;
+        for b in (0..bonds).filter(|&b| self.may_break(b)) {
+            seen += 1;
+            demands[b] = self.demand_at(network, u, b);
+        }
+        seen
+    }
+
     /// The bonds that fail at the displacements `u` of a network whose weights are what is left of its bonds, ascending, in place of what
     /// `failing` held. Returns how many bonds were looked at. Laws of single bonds look at those that may break and need no room.
     pub fn failing_at(&self, network: &Network, u: &[f64], failing: &mut Vec<usize>) -> u64 {
@@ -212,13 +241,7 @@ impl Failure {
         let mut seen = 0;
         for b in (0..bonds).filter(|&b| self.may_break(b)) {
             seen += 1;
-            let stress = BondForce::of(network, b, u, 1.0).stress(&self.sections[b]);
-            let demand = match &self.law {
-                Made::BondStress(law) => law.demand(b, stress),
-                Made::Softening(law) => law.demand(b, self.stage[b], stress),
-                Made::Virial(_) => 0.0,
-            };
-            if demand >= 1.0 {
+            if self.demand_at(network, u, b) >= 1.0 {
                 failing.push(b);
             }
         }

@@ -32,6 +32,16 @@ impl Stress {
         values
     }
 
+    /// The largest principal stress; in closed form where shear acts in the x–y plane alone.
+    pub fn largest(&self) -> f64 {
+        let [xx, yy, zz, xy, yz, zx] = self.voigt;
+        if yz != 0.0 || zx != 0.0 {
+            return self.principal()[0];
+        }
+        let (centre, half) = (0.5 * (xx + yy), 0.5 * (xx - yy));
+        (centre + half.hypot(xy)).max(zz)
+    }
+
     /// Von Mises stress `√(3/2 s:s)` with the deviator `s`.
     pub fn von_mises(&self) -> f64 {
         let tensor = self.tensor();
@@ -96,6 +106,39 @@ pub(super) fn strain_at(
     .map_err(|inverted| continuum.inverted(cell, inverted.0))
 }
 
+/// Stress at the centre of a cell as a matrix on its nodal displacements, node by node: six rows `xx, yy, zz, xy, yz, zx`, in Pa/m.
+/// Incompatible modes have no strain there (`G_i ∝ ξ_i`).
+///
+/// # Errors
+/// An inverted element.
+pub fn centre_operator(continuum: &Continuum, cell: usize) -> Result<Vec<f64>> {
+    match continuum.mesh.space {
+        Space::Plane => operator::<Q4, 2, 4, 4>(continuum, cell),
+        Space::Solid => operator::<H8, 3, 8, 6>(continuum, cell),
+    }
+    .map_err(|inverted| continuum.inverted(cell, inverted.0))
+}
+
+/// `C B_a` at the centre, row by row.
+fn operator<E: Element<D, N>, const D: usize, const N: usize, const V: usize>(
+    continuum: &Continuum,
+    cell: usize,
+) -> std::result::Result<Vec<f64>, Inverted> {
+    let c = continuum.elasticity.stiffness(continuum.hypothesis);
+    let model = ElementModel::<D, V>::new(continuum);
+    let strain = model.kinematics::<E, N>(cell)?.at(&SVector::zeros())?;
+    let mut rows = vec![0.0; 6 * N * D];
+    for (a, b) in strain.nodes.iter().enumerate() {
+        for row in 0..6 {
+            for i in 0..D {
+                let sum: f64 = (0..V).map(|k| c[(row, k)] * b[(k, i)]).sum();
+                rows[row * N * D + a * D + i] = sum;
+            }
+        }
+    }
+    Ok(rows)
+}
+
 /// `ε = Σ B_a u_a + Σ G_i α_i` with the modes `α` that the condensation left behind.
 fn recover<E: Element<D, N>, const D: usize, const N: usize, const V: usize>(
     continuum: &Continuum,
@@ -137,6 +180,52 @@ mod tests {
         for (computed, exact) in shear.principal().into_iter().zip([2.0, 0.0, -2.0]) {
             assert!((computed - exact).abs() < 1e-14);
         }
+        for voigt in [
+            [1.0, -2.0, 0.3, 0.7, 0.0, 0.0],
+            [-4.0, -2.0, 0.3, 0.1, 0.0, 0.0],
+            [1.0, 2.0, 3.0, 4.0, 5.0, 6.0],
+        ] {
+            let stress = Stress { voigt };
+            assert!((stress.largest() - stress.principal()[0]).abs() < 1e-14, "{voigt:?}");
+        }
         assert!(Stress { voigt: [3.0, 3.0, 3.0, 0.0, 0.0, 0.0] }.von_mises() < 1e-14);
+    }
+
+    /// The matrix gives what the element gives, modes and B-bar included, on a cell that is no rectangle.
+    #[test]
+    fn the_operator_of_the_centre_is_the_stress_there() {
+        use crate::fem::elasticity::{Elasticity, Hypothesis};
+        use crate::fem::formulation::Formulation;
+        use crate::fem::structured::{BOX_SIDES, mapped};
+        let bend =
+            |x: crate::space::Vec3| crate::space::Vec3::new(x.x + 0.2 * x.y, x.y + 0.1 * x.x * x.y, x.z);
+        let axes = |dim: usize| vec![vec![0.0, 1.0]; dim];
+        for (dim, formulation) in [
+            (2, Formulation::Plain),
+            (2, Formulation::Incompatible),
+            (2, Formulation::BBar),
+            (3, Formulation::Incompatible),
+        ] {
+            let body = Continuum {
+                name: "cell".to_owned(),
+                mesh: mapped(&axes(dim), BOX_SIDES, bend).unwrap(),
+                elasticity: Elasticity { young_pa: 3.0, poisson: 0.3, density: 1.0 },
+                hypothesis: if dim == 2 {
+                    Hypothesis::PlaneStrain { thickness_m: 0.1 }
+                } else {
+                    Hypothesis::Solid
+                },
+                formulation,
+            };
+            let u: Vec<f64> = (0..body.dof_count()).map(|i| (1.0 + 2.3 * i as f64).sin()).collect();
+            let q: Vec<f64> =
+                body.mesh.cell(0).iter().flat_map(|&n| &u[n * dim..(n + 1) * dim]).copied().collect();
+            let exact = stress_at(&body, &u, 0, &[[0.0; 3]]).unwrap()[0];
+            let rows = centre_operator(&body, 0).unwrap();
+            for (row, exact) in rows.chunks_exact(q.len()).zip(exact.voigt) {
+                let found: f64 = row.iter().zip(&q).map(|(c, q)| c * q).sum();
+                assert!((found - exact).abs() < 1e-12, "{dim} {formulation:?}: {found} {exact}");
+            }
+        }
     }
 }

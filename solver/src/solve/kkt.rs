@@ -216,12 +216,37 @@ impl Kkt {
         (r, size)
     }
 
-    /// Applies the factor to a residual: `[r_u + γBᵀr_λ; r_λ]` on the right-hand side.
-    fn correct(&self, r: &mut [f64], work: &mut Work) {
+    /// Unknowns and multipliers for several right-hand sides (forces, row values) by one pass through the factor, not refined: exact to
+    /// about ε where there are rows. For loops that refine on a residual of their own.
+    pub fn apply(&self, sides: &[[&[f64]; 2]], work: &mut Work) -> Vec<[Vec<f64>; 2]> {
+        let (n, m) = (self.unknown_scale.len(), self.row_scale.len());
+        let mut x = Vec::with_capacity((n + m) * sides.len());
+        for [f, g] in sides {
+            let from = x.len();
+            x.extend(f.iter().zip(&self.unknown_scale).map(|(f, s)| f * s));
+            x.extend(g.iter().zip(&self.row_scale).map(|(g, s)| g * s));
+            self.augment(&mut x[from..]);
+        }
+        self.factor.solve_columns(&mut x, sides.len());
+        sides.iter().for_each(|_| work.solved(self.factor.nonzeros()));
+        let unscaled = |x: &[f64], scale: &[f64]| x.iter().zip(scale).map(|(x, s)| x * s).collect();
+        let columns = x.chunks_exact((n + m).max(1));
+        columns
+            .map(|x| [unscaled(&x[..n], &self.unknown_scale), unscaled(&x[n..], &self.row_scale)])
+            .collect()
+    }
+
+    /// `[r_u + γBᵀr_λ; r_λ]`.
+    fn augment(&self, r: &mut [f64]) {
         let n = self.unknown_scale.len();
         for (k, row) in self.rows.iter().enumerate() {
             row.iter().for_each(|&(i, b)| r[i] += GAMMA * b * r[n + k]);
         }
+    }
+
+    /// Applies the factor to a residual.
+    fn correct(&self, r: &mut [f64], work: &mut Work) {
+        self.augment(r);
         self.factor.solve_in_place(r);
         work.solved(self.factor.nonzeros());
     }

@@ -68,26 +68,13 @@ pub struct SymmetricMatrix {
 impl SymmetricMatrix {
     /// Sums the triplets into an `n × n` matrix.
     pub fn from_triplets(n: usize, triplets: &Triplets) -> Self {
-        let mut start = vec![0usize; n + 1];
-        for &c in &triplets.cols {
-            start[c as usize + 1] += 1;
-        }
-        for c in 0..n {
-            start[c + 1] += start[c];
-        }
-        let mut next = start.clone();
-        let mut order = vec![0u32; triplets.cols.len()];
-        for (t, &c) in triplets.cols.iter().enumerate() {
-            order[next[c as usize]] = t as u32;
-            next[c as usize] += 1;
-        }
+        // By rows, then by columns: both passes keep ties in the order of insertion, so that sums are the same bits every time.
+        let (by_row, _) = counted(&triplets.rows, n, 0..triplets.rows.len() as u32);
+        let (order, start) = counted(&triplets.cols, n, by_row.into_iter());
         let mut matrix = SymmetricMatrix { n, column_start: vec![0], rows: Vec::new(), values: Vec::new() };
         for c in 0..n {
-            let column = &mut order[start[c]..start[c + 1]];
-            // Ties keep the order of insertion, so that sums are the same bits every time.
-            column.sort_unstable_by_key(|&t| (triplets.rows[t as usize], t));
             let first = matrix.rows.len();
-            for &t in column.iter() {
+            for &t in &order[start[c]..start[c + 1]] {
                 let (row, value) = (triplets.rows[t as usize], triplets.values[t as usize]);
                 match matrix.rows.last() {
                     Some(&last) if matrix.rows.len() > first && last == row => {
@@ -154,6 +141,23 @@ impl SymmetricMatrix {
         }
         y
     }
+}
+
+/// Sorts indices by their keys below `n`, ties as they come. Gives them with the place where each key begins.
+fn counted(keys: &[u32], n: usize, indices: impl Iterator<Item = u32>) -> (Vec<u32>, Vec<usize>) {
+    let mut start = vec![0usize; n + 1];
+    keys.iter().for_each(|&key| start[key as usize + 1] += 1);
+    for key in 0..n {
+        start[key + 1] += start[key];
+    }
+    let mut next = start.clone();
+    let mut sorted = vec![0u32; keys.len()];
+    for t in indices {
+        let place = &mut next[keys[t as usize] as usize];
+        sorted[*place] = t;
+        *place += 1;
+    }
+    (sorted, start)
 }
 
 /// How the unknowns are ordered before factorising.
@@ -232,11 +236,19 @@ impl Factor {
 
     /// Solves `A x = b` in place.
     pub fn solve_in_place(&self, b: &mut [f64]) {
-        let mut memory = MemBuffer::new(self.symbolic.solve_in_place_scratch::<f64>(1, Par::Seq));
-        let rows = b.len();
+        self.solve_columns(b, 1);
+    }
+
+    /// Solves for several right-hand sides at once, one after the other in `b`: the factor is read once for all.
+    pub fn solve_columns(&self, b: &mut [f64], columns: usize) {
+        if columns == 0 {
+            return;
+        }
+        let mut memory = MemBuffer::new(self.symbolic.solve_in_place_scratch::<f64>(columns, Par::Seq));
+        let rows = b.len() / columns;
         LdltRef::new(&self.symbolic, &self.values).solve_in_place_with_conj(
             Conj::No,
-            MatMut::from_column_major_slice_mut(b, rows, 1),
+            MatMut::from_column_major_slice_mut(b, rows, columns),
             Par::Seq,
             MemStack::new(&mut memory),
         );
@@ -277,6 +289,12 @@ mod tests {
             factor.solve_in_place(&mut y);
             let error = x.iter().zip(&y).map(|(p, q)| (p - q).abs()).fold(0.0, f64::max);
             assert!(error < 1e-11, "{error:e}");
+            // Two sides at once, the second one doubled.
+            let mut both: Vec<f64> = b.iter().copied().chain(b.iter().map(|v| 2.0 * v)).collect();
+            factor.solve_columns(&mut both, 2);
+            let twice = x.iter().map(|x| 2.0 * x);
+            let error = x.iter().copied().chain(twice).zip(&both).map(|(p, q)| (p - q).abs());
+            assert!(error.fold(0.0, f64::max) < 1e-11);
         }
     }
 

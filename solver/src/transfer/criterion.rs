@@ -109,7 +109,7 @@ impl Criterion {
             Indicator::Stress { strength_pa, length_m } => {
                 let strength = strength_pa.unwrap_or(f64::INFINITY);
                 let averaged = averaged_stress(body, displacement, length_m)?;
-                Ok(averaged.into_iter().map(|stress| stress.principal()[0] / strength).collect())
+                Ok(averaged.into_iter().map(|stress| stress.largest() / strength).collect())
             }
             Indicator::Error => error_shares(body, displacement),
         }
@@ -198,7 +198,7 @@ fn complementary(body: &Continuum, stress: &Matrix3<f64>) -> f64 {
 }
 
 /// Cells whose bounding box comes within `distance` (m) of that of a fired cell, and those that share a node with one.
-fn buffered(body: &Continuum, fired: &[usize], distance: f64) -> BTreeSet<usize> {
+pub(crate) fn buffered(body: &Continuum, fired: &[usize], distance: f64) -> BTreeSet<usize> {
     let mesh = &body.mesh;
     let boxes: Vec<[Vec3; 2]> = (0..mesh.cell_count())
         .map(|c| {

@@ -1,6 +1,6 @@
 //! From elements to particles while the model moves.
 //!
-//! A [`criterion`] says which elements; [`region`] makes a box of them; [`substitution`] builds the new model, [`points`] moves
+//! A [`criterion`] says which elements ([`watch`] asks it again and again); [`region`] makes a box of them; [`substitution`] builds the new model, [`points`] moves
 //! supports and loads, [`fields`] gives the motion with its [`momentum`]; [`equilibrium`] relaxes the new particles;
 //! [`report`] says what the switch did to forces, energies and momentum.
 
@@ -15,3 +15,4 @@ pub mod report;
 mod state;
 pub mod substitution;
 pub mod ties;
+pub mod watch;

@@ -50,6 +50,14 @@ impl Resolution {
         }
     }
 
+    /// Rows and divisions at a level, up to a factor.
+    pub fn size(&self, index: usize) -> f64 {
+        match self {
+            Self::Key(levels) => levels.values[index].as_f64().unwrap_or(1.0),
+            Self::Factor => FACTORS[index],
+        }
+    }
+
     /// Name of a level and what makes it; `file` has the setting applied.
     pub fn level(&self, file: &SceneFile, index: usize) -> (String, Vec<Override>) {
         match self {

@@ -18,7 +18,7 @@ use crate::scene::study::CostDeclaration;
 use measure::{Repeats, measure};
 use target::Target;
 
-/// Packings per random setting, in the quick and in the full tier.
+/// Packings per random setting of a study, in the quick and in the full tier.
 const SEEDS: [u64; 2] = [3, 7];
 
 /// The cost diagrams that the scene declares for this tier: its own settings at its own levels.
@@ -29,19 +29,21 @@ pub(super) fn all(study: &Study) -> Result<Vec<CostDiagram>> {
 
 fn one(study: &Study, name: &str, declared: &CostDeclaration) -> Result<CostDiagram> {
     let target = Target::declared(study, declared)?;
-    let setting = |(legend, names): (&String, &Vec<String>)| {
-        let points = declared.levels.values.iter().map(|value| {
+    let empty = |legend: &String| CostSetting { name: legend.clone(), points: Vec::new() };
+    let mut settings: Vec<CostSetting> = declared.settings.keys().map(empty).collect();
+    // The settings of a level in turn: what else the machine does falls on all of them alike, and their times have a ratio.
+    for value in &declared.levels.values {
+        for (names, setting) in declared.settings.values().zip(&mut settings) {
             let mut changes = study.variants(&[&declared.variants[..], names].concat());
             changes.push(at_level(&declared.levels, value));
-            point(study, &target, &changes, level_name(&declared.levels, value))
-        });
-        CostSetting { name: legend.clone(), points: points.collect() }
-    };
+            setting.points.push(point(study, &target, &changes, level_name(&declared.levels, value)));
+        }
+    }
     let mut diagram = CostDiagram {
         id: name.to_owned(),
         title: declared.title.clone(),
         cheaper: declared.cheaper.clone(),
-        settings: declared.settings.iter().map(setting).collect(),
+        settings,
         ..target.head(study)
     };
     diagram.name_paper_like();
@@ -52,7 +54,11 @@ fn one(study: &Study, name: &str, declared: &CostDeclaration) -> Result<CostDiag
 fn point(study: &Study, target: &Target, changes: &[Override], level: String) -> CostPoint {
     let file = study.file.with(changes);
     let found = file.and_then(|file| {
-        let packings = settings::packings(&file.scene, SEEDS[usize::from(study.tier == Tier::Full)]);
+        // The quick tier takes the packing that the scene names.
+        let packings = match study.tier {
+            Tier::Quick => Vec::new(),
+            Tier::Full => settings::packings(&file.scene, SEEDS[1]),
+        };
         measure(study, target, &file, &packings, Repeats::IfShort)
     });
     let point =

@@ -20,8 +20,8 @@ use std::time::Instant;
 
 /// Runs shorter than this are timed again, in s.
 const REPEATED_S: f64 = 2.0;
-/// A level is taken to cost at most this many times the one before, in the plane and in the solid: twice the rows, solved directly.
-const GROWTH: [f64; 2] = [8.0, 64.0];
+/// Time grows at most as this power of the rows, in the plane and in the solid: a banded solve of rows² or rows³ unknowns.
+const POWERS: [f64; 2] = [4.0, 7.0];
 
 /// What a study needs from outside.
 pub struct Surroundings<'a> {
@@ -144,7 +144,9 @@ impl Diagram<'_> {
         for setting in &self.settings {
             let mut points: Vec<CostPoint> = Vec::new();
             for level in 0..self.resolution.len() {
-                let expected = expected(&points, study.file.scene.hypothesis);
+                let measured = points.iter().enumerate().filter(|(_, p)| p.error.is_some());
+                let measured: Vec<_> = measured.map(|(k, p)| [self.resolution.size(k), p.seconds]).collect();
+                let expected = expected(&measured, self.resolution.size(level), study.file.scene.hypothesis);
                 points.push(self.point(study, (&target, setting), level, expected, around)?);
             }
             diagram.settings.push(CostSetting { name: setting.name.clone(), points });
@@ -217,18 +219,16 @@ impl Diagram<'_> {
     }
 }
 
-/// What the next level may take, in s: as much more as between the last two that were measured, and where there is one, at most;
-/// nothing is known before.
-fn expected(points: &[CostPoint], hypothesis: Hypothesis) -> f64 {
-    let most = GROWTH[usize::from(hypothesis == Hypothesis::Solid)];
-    let measured: Vec<(usize, f64)> =
-        points.iter().enumerate().filter(|(_, p)| p.error.is_some()).map(|(k, p)| (k, p.seconds)).collect();
-    let Some(&(last, seconds)) = measured.last() else { return 0.0 };
-    let growth = match measured[..] {
-        [.., (k, before), _] => (seconds / before).powf(1.0 / (last - k) as f64).clamp(1.0, most),
-        _ => most,
+/// What a level may take, in s: a power of its size through the last two that were measured, and where there is one, the highest.
+/// Nothing is known before.
+fn expected(measured: &[[f64; 2]], size: f64, hypothesis: Hypothesis) -> f64 {
+    let highest = POWERS[usize::from(hypothesis == Hypothesis::Solid)];
+    let Some(&[last, seconds]) = measured.last() else { return 0.0 };
+    let power = match measured {
+        [.., [before, then], _] => ((seconds / then).ln() / (last / before).ln()).clamp(0.0, highest),
+        _ => highest,
     };
-    seconds * growth.powi((points.len() - last) as i32)
+    seconds * (size / last).powf(power)
 }
 
 /// Settings that differ in what is computed; of two that do not, the first.
@@ -257,13 +257,12 @@ mod tests {
 
     #[test]
     fn a_level_is_expected_to_grow_as_the_last_two_did() {
-        let point = |seconds: f64| CostPoint { error: Some(0.1), seconds, ..CostPoint::default() };
-        let of = |points: &[CostPoint]| expected(points, Hypothesis::PlaneStress);
-        assert_eq!(of(&[]), 0.0);
-        assert_eq!(of(&[point(1.0)]), 8.0);
-        assert_eq!(of(&[point(1.0), point(3.0)]), 9.0);
-        // A gap in between counts as a level; what seems to fall is taken to stay.
-        assert_eq!(of(&[point(1.0), CostPoint::default(), point(4.0), CostPoint::default()]), 16.0);
-        assert_eq!(of(&[point(2.0), point(1.0)]), 1.0);
+        let of = |measured: &[[f64; 2]], size: f64| expected(measured, size, Hypothesis::PlaneStress);
+        assert_eq!(of(&[], 8.0), 0.0);
+        assert_eq!(of(&[[4.0, 1.0]], 8.0), 16.0);
+        assert!((of(&[[4.0, 1.0], [8.0, 4.0]], 12.0) - 9.0).abs() < 1e-12);
+        // What seems to fall is taken to stay; what seems to explode is not believed.
+        assert_eq!(of(&[[4.0, 2.0], [8.0, 1.0]], 12.0), 1.0);
+        assert_eq!(of(&[[4.0, 1e-6], [8.0, 1.0]], 16.0), 16.0);
     }
 }

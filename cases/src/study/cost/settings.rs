@@ -3,13 +3,13 @@
 use super::levels::text;
 use crate::file::SceneFile;
 use crate::overrides::Override;
-use crate::scene::Scene;
 use crate::scene::body::{Body, Method};
 use crate::scene::connection::TieMethod;
 use crate::scene::de::{Arrangement, De, Section, Skin};
 use crate::scene::dynamics::{Rotations, Stepping};
 use crate::scene::fe::{Fe, Formulation};
 use crate::scene::number::Number;
+use crate::scene::{Hypothesis, Scene};
 use serde::Serialize;
 use serde_json::{Value, json};
 
@@ -177,7 +177,10 @@ fn formulations(scene: &Scene) -> Vec<Setting> {
         (Formulation::Incompatible, "elements with incompatible modes"),
         (Formulation::BBar, "B-bar elements"),
     ];
-    let other = kinds.into_iter().filter(|(kind, _)| bodies.iter().any(|(_, given)| given != kind));
+    // B-bar does not exist in plane stress, which does not lock by volume.
+    let exists = |kind: Formulation| kind != Formulation::BBar || scene.hypothesis != Hypothesis::PlaneStress;
+    let other = kinds.into_iter().filter(|(kind, _)| exists(*kind));
+    let other = other.filter(|(kind, _)| bodies.iter().any(|(_, given)| given != kind));
     other
         .map(|(kind, name)| {
             let of =

@@ -72,6 +72,7 @@ impl Target {
             probe: name.clone(),
             tiers: scene.tiers.clone(),
             variants: Vec::new(),
+            across: Vec::new(),
             take: None,
             norm: curve.then_some(Norm::Largest),
             zone: Zone::Whole,

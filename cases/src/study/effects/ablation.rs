@@ -111,8 +111,14 @@ fn both(file: &SceneFile, effect: &str, tally: &Tally) -> Result<Both> {
     let others: Vec<&str> = file.scene.asks_for().into_iter().filter(|name| *name != effect).collect();
     let mut with_list = others.clone();
     with_list.push(effect);
-    let needs_inertia = |name: &&&str| effect == "inertia" && ["damping", "finite-rotation"].contains(*name);
-    let without_list: Vec<&str> = others.iter().filter(|name| !needs_inertia(name)).copied().collect();
+    // What needs the effect goes with it.
+    let needs: &[&str] = match effect {
+        "inertia" => &["damping", "finite-rotation"],
+        "bond-failure" => &["contact", "friction"],
+        "contact" => &["friction"],
+        _ => &[],
+    };
+    let without_list: Vec<&str> = others.iter().filter(|name| !needs.contains(name)).copied().collect();
     let (with_file, with) = run(file, &with_list, tally)?;
     let (without_file, without) = run(file, &without_list, tally)?;
     let changes = changes(file, &with.readings, &without.readings);

@@ -1,14 +1,19 @@
 //! Whether bonds fail.
 
 use super::super::evaluate::Solved;
-use super::{off, on};
+use super::{off, on, watched};
 use crate::file::SceneFile;
-use crate::result::EffectUse;
+use crate::result::{EffectUse, Indicator};
 
 const NAME: &str = "bond-failure";
 
-/// Bond failure, on or off; its counter is the number of failures.
+/// Bond failure, on or off; its counter is the number of failures. Where the list of effects leaves it out, the stress in its bonds over
+/// their strength tells: at one a bond would have failed.
 pub fn effect(file: &SceneFile, solved: &Solved) -> EffectUse {
+    if let Some(value) = solved.guard.seen.largest_demand {
+        let about = "the largest stress in a bond, over the strength that was left out,".to_owned();
+        return watched(NAME, Indicator { about, value, limit: 1.0 });
+    }
     if file.scene.failure.is_empty() {
         return off(NAME, "the scene gives no strength");
     }

@@ -72,7 +72,7 @@ fn mismatch(solved: &Solved) -> Option<f64> {
     }
     let mean = |jumps: &Vec<f64>| (jumps.iter().sum::<f64>() / jumps.len() as f64).abs();
     let widest = turns.values().map(mean).reduce(f64::max)?;
-    let scale = solved.guard.largest_rotation.max(displacement_per_extent(solved));
+    let scale = solved.guard.seen.largest_rotation.max(displacement_per_extent(solved));
     (scale > 0.0).then_some(widest / scale)
 }
 

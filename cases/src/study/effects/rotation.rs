@@ -11,7 +11,7 @@ const LARGE_ROTATION: f64 = 0.1;
 
 /// Finite rotation, on or off.
 pub fn effect(file: &SceneFile, solved: &Solved) -> EffectUse {
-    let largest = solved.guard.largest_rotation;
+    let largest = solved.guard.seen.largest_rotation;
     if file.scene.dynamics.as_ref().is_some_and(|d| d.rotations == Rotations::Finite) {
         let why = format!("the scene asks for it; the largest rotation is {largest:.1e} rad");
         return on("finite-rotation", why, solved.solution.work.bond_updates);

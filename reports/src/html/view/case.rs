@@ -88,6 +88,7 @@ fn work(c: &CaseJudgement) -> Vec<(&'static str, String)> {
         ("factorisations", w.factorisations),
         ("factor entries", w.factor_nonzeros),
         ("solves", w.solves),
+        ("factor entries of all solves", w.solve_entries),
         ("contact checks", w.contact_checks),
         ("packing checks", w.packing_checks),
         ("steps", w.steps),
