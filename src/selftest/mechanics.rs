@@ -1,13 +1,9 @@
 //! Defects of mechanics: done to a model, its solution, a run in time, a network, or the matrix of a bond.
 
+use super::changes::*;
 use super::{Seeded, Spoil, Trial};
 use seam_cases::defect::Defect;
 use seam_reports::exit::Exit;
-use seam_solver::coupling::Method;
-use seam_solver::dem::network::Network;
-use seam_solver::fem::elasticity::Hypothesis;
-use seam_solver::fem::formulation::Formulation;
-use seam_solver::model::{Model, Part};
 use seam_solver::transfer::fields::Mode;
 
 const PATCH: Trial = Trial::of("patch-coupled");
@@ -87,11 +83,18 @@ pub const DEFECTS: &[Seeded] = &[
         Defect::Model(pointwise),
         "tension-mortar",
     ),
-    refused(
+    seeded(
         "swap-interface-nodes",
-        "two particles of an interface change places",
+        "two particles inside an interface change places",
         PATCH,
-        Defect::Model(swap_interface),
+        Defect::Model(swap_inside),
+        "tension-nested",
+    ),
+    refused(
+        "swap-interface-corners",
+        "the corner particles of an interface change places",
+        PATCH,
+        Defect::Model(swap_corners),
         "constraint 'tie 'left'",
     ),
     seeded(
@@ -211,126 +214,4 @@ const fn refused(
     by: &'static str,
 ) -> Seeded {
     unmeasured(name, about, trial, defect, by)
-}
-
-fn networks(model: &mut Model) -> impl Iterator<Item = &mut Network> {
-    model.parts.iter_mut().filter_map(|part| match part {
-        Part::Discrete { network, .. } => Some(network),
-        Part::Continuum(_) => None,
-    })
-}
-
-fn halve_ei(model: &mut Model) {
-    networks(model)
-        .flat_map(|n| &mut n.bonds.stiffness)
-        .for_each(|k| (k.ks, k.kb) = (0.5 * k.ks, 0.5 * k.kb));
-}
-
-fn halve_bending(model: &mut Model) {
-    networks(model).flat_map(|n| &mut n.bonds.stiffness).for_each(|k| k.kb *= 0.5);
-}
-
-fn halve_shear(network: &mut Network) {
-    network.bonds.stiffness.iter_mut().for_each(|k| k.ks *= 0.5);
-}
-
-/// Of the moment on the first particle due to its own deflection.
-fn flip_moment(k: &mut [[f64; 12]; 12]) {
-    k[1][5] = -k[1][5];
-    k[2][4] = -k[2][4];
-}
-
-/// The same, symmetric.
-fn flip_moments(k: &mut [[f64; 12]; 12]) {
-    for (deflection, rotation) in [(1, 5), (2, 4)] {
-        k[deflection][rotation] = -k[deflection][rotation];
-        k[rotation][deflection] = -k[rotation][deflection];
-    }
-}
-
-fn skip_weights(model: &mut Model) {
-    networks(model).flat_map(|n| &mut n.bonds.weight).for_each(|w| *w = 1.0);
-}
-
-fn skip_one_weight(model: &mut Model) {
-    networks(model).flat_map(|n| &mut n.bonds.weight).filter(|w| **w < 1.0).take(1).for_each(|w| *w = 1.0);
-}
-
-fn drop_one_tie(model: &mut Model) {
-    model.ties.pop();
-}
-
-fn drop_ties(model: &mut Model) {
-    model.ties.clear();
-}
-
-fn pointwise(model: &mut Model) {
-    model.ties.iter_mut().for_each(|tie| tie.method = Method::Pointwise);
-}
-
-fn swap_interface(model: &mut Model) {
-    for network in networks(model) {
-        if let Some([first, .., last]) = network.faces.get("left").map(Vec::as_slice) {
-            network.particles.position.swap(*first, *last);
-        }
-    }
-}
-
-fn elements(model: &mut Model, change: impl Fn(&mut seam_solver::fem::continuum::Continuum)) {
-    for part in &mut model.parts {
-        if let Part::Continuum(body) = part {
-            change(body);
-        }
-    }
-}
-
-fn kilopascals(model: &mut Model) {
-    elements(model, |body| body.elasticity.young_pa *= 1e-3);
-}
-
-fn forget_poisson(model: &mut Model) {
-    elements(model, |body| body.elasticity.poisson = 0.0);
-}
-
-fn plane_strain(model: &mut Model) {
-    elements(model, |body| {
-        let thickness_m = body.hypothesis.thickness();
-        body.hypothesis = Hypothesis::PlaneStrain { thickness_m };
-    });
-}
-
-fn plain(model: &mut Model) {
-    elements(model, |body| body.formulation = Formulation::Plain);
-}
-
-fn lose_load(model: &mut Model) {
-    // Forces of zero are loads too.
-    if let Some(at) = model.loads.iter().rposition(|load| load.value != 0.0) {
-        model.loads.remove(at);
-    }
-}
-
-fn flip_loads(model: &mut Model) {
-    model.loads.iter_mut().for_each(|load| load.value = -load.value);
-}
-
-fn move_support(model: &mut Model) {
-    if let Some(support) = model.supports.iter_mut().find(|support| support.value != 0.0) {
-        support.value *= 1.1;
-    }
-}
-
-/// The one that moves most.
-fn stale(_: &Model, solution: &mut seam_solver::solve::statics::Solution) {
-    if let Some(u) = solution.u.iter_mut().max_by(|a, b| a.abs().total_cmp(&b.abs())) {
-        *u = 0.0;
-    }
-}
-
-fn mode(plan: &mut seam_solver::simulation::Plan, mode: Mode) {
-    plan.switches.iter_mut().for_each(|switch| switch.mode = mode);
-}
-
-fn lose_mass(network: &mut Network) {
-    network.particles.mass.iter_mut().for_each(|m| *m *= 0.99);
 }

@@ -3,6 +3,7 @@
 //! A defect is one entry of a list: [`mechanics`], [`foreign`] (numbers of other codes) or [`judged`] (what is done to
 //! results). Every trial is run sound first, must be green, and becomes the record that spoiled runs are judged beside.
 
+mod changes;
 mod foreign;
 // One signature for all defects of results: some clear the whole list.
 #[allow(clippy::ptr_arg)]
