@@ -64,7 +64,7 @@ fn docs() -> PathBuf {
 
 #[test]
 fn the_tutorial_runs() {
-    assert_eq!(run("tutorial.md"), 5);
+    assert_eq!(run("tutorial.md"), 6);
 }
 
 #[test]

@@ -28,9 +28,9 @@ pub fn picture(p: &Picture) -> Option<Figure> {
     let title = if p.id == "deformed" { "Deformed shape".to_owned() } else { p.title.clone() };
     let mut svg = open_svg(super::shapes::WIDTH, view.height(), &title, &description);
     svg.push_str(&path("shape-ghost", &polygons(&view, &p.elements)));
-    svg.push_str(&circles(&view, "shape-ghost", &p.particles, &p.radii));
+    svg.push_str(&circles(&view, "shape-ghost", &p.particles, &p.radii, &p.bonds));
     svg.push_str(&path("shape-element", &polygons(&view, elements)));
-    svg.push_str(&circles(&view, "shape-particle", particles, &p.radii));
+    svg.push_str(&circles(&view, "shape-particle", particles, &p.radii, &p.bonds));
     svg.push_str(&path("shape-bond", &bonds(&view, particles, &p.bonds)));
     svg.push_str(&path("shape-broken", &bonds(&view, particles, &p.broken)));
     svg.push_str(&path("shape-support", &supports(&view, p)));

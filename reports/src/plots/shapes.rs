@@ -1,11 +1,15 @@
 //! Elements, particles, bonds, supports and arrows as SVG paths, from model coordinates.
 
 use seam_cases::result::Picture;
+use std::collections::BTreeSet;
 
 /// Width of a drawing.
 pub(super) const WIDTH: f64 = 1000.0;
 /// Most height that bodies may take.
 const MOST_HEIGHT: f64 = 460.0;
+
+/// Least radius of a circle. A bonded particle that would be smaller is where its bonds meet.
+const SMALLEST_CIRCLE: f64 = 2.5;
 
 /// From model coordinates, in metres, y upwards, to the drawing.
 pub(super) struct View {
@@ -46,6 +50,11 @@ impl View {
         [self.margin[0] + self.scale * (x - self.left), self.margin[1] + self.scale * (self.top - y)]
     }
 
+    /// Coordinates in tenths of a unit of the drawing: sums of steps between them are exact.
+    fn tenths(&self, p: [f64; 2]) -> [i64; 2] {
+        self.at(p).map(|v| (10.0 * v).round() as i64)
+    }
+
     /// Coordinates of a path, to a tenth of a unit.
     pub(super) fn text(&self, p: [f64; 2]) -> String {
         let [x, y] = self.at(p);
@@ -58,8 +67,15 @@ pub(super) fn path(class: &str, d: &str) -> String {
 }
 
 pub(super) fn polygons(view: &View, elements: &[Vec<[f64; 2]>]) -> String {
-    let one = |corners: &Vec<[f64; 2]>| format!("{}Z", line(view, corners));
-    elements.iter().filter(|e| !e.is_empty()).map(one).collect()
+    let mut d = String::new();
+    for corners in elements {
+        let at: Vec<[i64; 2]> = corners.iter().map(|c| view.tenths(*c)).collect();
+        let Some(first) = at.first() else { continue };
+        start(&mut d, *first);
+        at.windows(2).for_each(|side| step(&mut d, side[0], side[1]));
+        d.push('Z');
+    }
+    d
 }
 
 pub(super) fn line(view: &View, points: &[[f64; 2]]) -> String {
@@ -67,20 +83,84 @@ pub(super) fn line(view: &View, points: &[[f64; 2]]) -> String {
     format!("M{}", points.join("L"))
 }
 
-pub(super) fn circles(view: &View, class: &str, centres: &[[f64; 2]], radii: &[f64]) -> String {
-    let circle = |(c, r): (&[f64; 2], &f64)| {
+/// Particles; of those too small to be seen as circles, only the ones without a bond.
+pub(super) fn circles(
+    view: &View,
+    class: &str,
+    centres: &[[f64; 2]],
+    radii: &[f64],
+    bonds: &[[usize; 2]],
+) -> String {
+    let bonded: BTreeSet<usize> = bonds.iter().flatten().copied().collect();
+    let seen =
+        |(i, (_, r)): &(usize, (&[f64; 2], &f64))| view.scale * **r >= SMALLEST_CIRCLE || !bonded.contains(i);
+    let circle = |(_, (c, r)): (usize, (&[f64; 2], &f64))| {
         let [x, y] = view.at(*c);
         format!("<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"{:.1}\"/>", view.scale * r)
     };
-    let body: String = centres.iter().zip(radii).map(circle).collect();
+    let body: String = centres.iter().zip(radii).enumerate().filter(seen).map(circle).collect();
     if body.is_empty() { body } else { format!("<g class=\"{class}\">{body}</g>\n") }
 }
 
+/// Bonds as trails that go on from bond to bond while they can, in relative tenths of a unit: a third of the text of one
+/// line per bond.
 pub(super) fn bonds(view: &View, centres: &[[f64; 2]], bonds: &[[usize; 2]]) -> String {
-    let one = |[i, j]: &[usize; 2]| {
-        Some(format!("M{}L{}", view.text(*centres.get(*i)?), view.text(*centres.get(*j)?)))
-    };
-    bonds.iter().filter_map(one).collect()
+    let at: Vec<[i64; 2]> = centres.iter().map(|c| view.tenths(*c)).collect();
+    let mut at_point = vec![Vec::new(); at.len()];
+    let there = |[i, j]: &[usize; 2]| *i < at.len() && *j < at.len();
+    for (k, bond) in bonds.iter().enumerate().filter(|(_, bond)| there(bond)) {
+        bond.iter().for_each(|&i| at_point[i].push(k));
+    }
+    let mut drawn: Vec<bool> = bonds.iter().map(|bond| !there(bond)).collect();
+    let mut d = String::new();
+    for first in 0..bonds.len() {
+        if drawn[first] {
+            continue;
+        }
+        let mut from = bonds[first][0];
+        start(&mut d, at[from]);
+        let mut next = Some(first);
+        while let Some(k) = next {
+            drawn[k] = true;
+            let [i, j] = bonds[k];
+            let to = if i == from { j } else { i };
+            step(&mut d, at[from], at[to]);
+            from = to;
+            next = at_point[from].iter().copied().find(|&k| !drawn[k]);
+        }
+    }
+    d
+}
+
+/// Begins a path of relative steps.
+fn start(d: &mut String, [x, y]: [i64; 2]) {
+    d.push('M');
+    number(d, x, true);
+    number(d, y, false);
+    d.push('l');
+}
+
+fn step(d: &mut String, from: [i64; 2], to: [i64; 2]) {
+    let first = d.ends_with('l');
+    number(d, to[0] - from[0], first);
+    number(d, to[1] - from[1], false);
+}
+
+/// Tenths as short as a path allows: `-.5` needs neither a zero nor a space before it.
+fn number(d: &mut String, tenths: i64, first: bool) {
+    let (whole, rest) = (tenths.abs() / 10, tenths.abs() % 10);
+    if tenths < 0 {
+        d.push('-');
+    } else if !first {
+        d.push(' ');
+    }
+    if whole > 0 || rest == 0 {
+        d.push_str(&whole.to_string());
+    }
+    if rest > 0 {
+        d.push('.');
+        d.push_str(&rest.to_string());
+    }
 }
 
 /// Where the bodies are held: at most nine triangles, evenly chosen, each pointing at its point from outside.
@@ -125,4 +205,45 @@ pub(super) fn arrow(view: &View, [at, [dx, dy]]: [[f64; 2]; 2]) -> String {
         bx + 4.0 * dy,
         by - 4.0 * dx
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Every bond once, whatever trails they make: the path is read back.
+    #[test]
+    fn every_bond_is_drawn_once() {
+        let centres = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]];
+        let square = [[0, 1], [2, 0], [1, 3], [3, 2], [0, 3], [9, 0]];
+        let view = View::over(centres.iter(), 0.0, 0.0).unwrap();
+        let path = bonds(&view, &centres, &square);
+        assert_eq!(path.matches('M').count(), 1, "{path}: one trail is enough");
+        assert_eq!(path, "M270 460l460 0 0-460-460 0 0 460 460-460");
+    }
+
+    #[test]
+    fn a_polygon_ends_where_it_began() {
+        let corners = vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+        let view = View::over(corners.iter(), 0.0, 0.0).unwrap();
+        assert_eq!(polygons(&view, &[corners, Vec::new()]), "M270 460l460 0 0-460-460 0Z");
+    }
+
+    #[test]
+    fn numbers_are_short_and_apart() {
+        let mut d = String::new();
+        for (k, tenths) in [5, -5, 12, 0, -130, 7].into_iter().enumerate() {
+            number(&mut d, tenths, k == 0);
+        }
+        assert_eq!(d, ".5-.5 1.2 0-13 .7");
+    }
+
+    #[test]
+    fn small_particles_are_drawn_where_no_bond_shows_them() {
+        let centres = [[0.0, 0.0], [1.0, 0.0], [0.5, 0.0]];
+        let view = View::over(centres.iter(), 0.0, 0.0).unwrap();
+        let count =
+            |radius: f64| circles(&view, "", &centres, &[radius; 3], &[[0, 1]]).matches("<circle").count();
+        assert_eq!((count(0.01), count(0.001)), (3, 1));
+    }
 }

@@ -21,7 +21,7 @@ pub fn sketch(p: &Picture) -> Option<Figure> {
     let mut svg =
         open_svg(WIDTH, view.height(), &title, &note).replacen("<svg ", "<svg class=\"sketch\" ", 1);
     svg.push_str(&path("shape-element", &polygons(&view, &p.elements)));
-    svg.push_str(&circles(&view, "shape-particle", &p.particles, &p.radii));
+    svg.push_str(&circles(&view, "shape-particle", &p.particles, &p.radii, &p.bonds));
     svg.push_str(&path("shape-bond", &bonds(&view, &p.particles, &p.bonds)));
     let ties = p.ties.iter().filter(|t| t.line.len() > 1).map(|t| line(&view, &t.line));
     svg.push_str(&path("shape-tie", &ties.collect::<String>()));

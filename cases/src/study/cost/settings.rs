@@ -6,7 +6,7 @@ use crate::overrides::Override;
 use crate::scene::body::{Body, Method};
 use crate::scene::connection::TieMethod;
 use crate::scene::de::{Arrangement, De, Section, Skin};
-use crate::scene::dynamics::{Rotations, Stepping};
+use crate::scene::dynamics::{Dynamics, Rotations, Stepping};
 use crate::scene::fe::{Fe, Formulation};
 use crate::scene::number::Number;
 use crate::scene::{Hypothesis, Scene};
@@ -223,8 +223,9 @@ fn ties(scene: &Scene) -> Vec<Setting> {
 
 /// Other ways through time, and how finely two rates divide a step.
 fn schemes(scene: &Scene) -> Vec<Setting> {
-    // Only explicit steps turn particles by any angle.
-    let Some(dynamics) = scene.dynamics.as_ref().filter(|d| d.rotations == Rotations::Small) else {
+    // Only explicit steps turn particles by any angle, and only they let bonds fail.
+    let free = |d: &&Dynamics| d.rotations == Rotations::Small && scene.failure.is_empty();
+    let Some(dynamics) = scene.dynamics.as_ref().filter(free) else {
         return Vec::new();
     };
     let step = dynamics
