@@ -12,6 +12,7 @@ use crate::markdown::escape;
 use crate::plots::cost::{Cost, work_precision};
 use crate::results::{CaseJudgement, QuantityResult, Results};
 use crate::terminal::kind_name;
+use crate::verdict::Verdict;
 use seam_cases::result::{Budget, CaseResult};
 
 /// Below this, a pure number is called rounding error.
@@ -108,66 +109,60 @@ fn margins(results: &Results) -> String {
             m.verdict
         )
     });
-    let rows: String = rows.collect();
-    if rows.is_empty() {
-        return rows;
-    }
-    let head =
-        "| hard case | body and scheme | raised | margin | needed | verdict |\n|---|---|---|---:|---:|---|\n";
-    section("Stability margins", format!("{head}{rows}\n"))
+    let head = [
+        "| hard case | body and scheme | raised | margin | needed | verdict |",
+        "|---|---|---|---:|---:|---|",
+    ];
+    table("Stability margins", head, rows.collect())
 }
 
 /// What leaving an effect out changes, and whether the run without it says so.
 fn ablations(results: &Results) -> String {
-    let of = |case: &CaseJudgement| {
-        let one = |a: &AblationJudgement| {
-            format!(
-                "| {} | {} | {} | {} | {} | {} | {} |\n",
-                case.id,
-                escape(&a.label),
-                a.effect,
-                a.largest_change.map_or("not measured".to_owned(), percent),
-                a.work_ratio.map_or(String::new(), |r| format!("{} ×", significant(r, 3))),
-                if a.caught { "called for" } else { "silent" },
-                a.verdict.map_or("shown".to_owned(), |v| v.to_string()),
-            )
-        };
-        case.ablations.iter().map(one).collect::<String>()
+    let row = |case: &str, a: &AblationJudgement| {
+        format!(
+            "| {case} | {} | {} | {} | {} | {} | {} |\n",
+            escape(&a.label),
+            a.effect,
+            a.largest_change.map_or("not measured".to_owned(), percent),
+            a.work_ratio.map_or(String::new(), |r| format!("{} ×", significant(r, 3))),
+            if a.caught { "called for" } else { "silent" },
+            shown(a.verdict),
+        )
     };
-    let rows: String = results.cases.iter().map(of).collect();
-    if rows.is_empty() {
-        return rows;
-    }
-    let head = "| case | scene | effect left out | largest change | work | guard | verdict |\n|---|---|---|---:|---:|---|---|\n";
-    section("Effects left out", format!("{head}{rows}\n"))
+    let rows = results.cases.iter().flat_map(|c| c.ablations.iter().map(|a| row(&c.id, a)));
+    let head = [
+        "| case | scene | effect left out | largest change | work | guard | verdict |",
+        "|---|---|---|---:|---:|---|---|",
+    ];
+    table("Effects left out", head, rows.collect())
 }
 
 /// Numbers that stand beside those of another code.
 fn agreements(results: &Results) -> String {
-    let of = |case: &CaseJudgement| {
-        let one = |q: &QuantityResult| {
-            let a = q.agreement.as_ref()?;
-            let model = if a.same_model { "the same" } else { "another" };
-            Some(format!(
-                "| {} | {} | {} {} | {} | {model} | {} | {} | {} |\n",
-                case.id,
-                escape(&q.label),
-                a.code,
-                a.version,
-                a.date,
-                difference(q),
-                interval(q).unwrap_or_default(),
-                q.verdict.map_or("shown".to_owned(), |v| v.to_string()),
-            ))
-        };
-        case.quantities.iter().filter_map(one).collect::<String>()
+    let row = |case: &str, q: &QuantityResult| {
+        let a = q.agreement.as_ref()?;
+        Some(format!(
+            "| {case} | {} | {} {} | {} | {} | {} | {} | {} |\n",
+            escape(&q.label),
+            a.code,
+            a.version,
+            a.date,
+            if a.same_model { "the same" } else { "another" },
+            difference(q),
+            interval(q).unwrap_or_default(),
+            shown(q.verdict),
+        ))
     };
-    let rows: String = results.cases.iter().map(of).collect();
-    if rows.is_empty() {
-        return rows;
-    }
-    let head = "| case | number | code | run on | model | difference | accepted | verdict |\n|---|---|---|---|---|---:|---|---|\n";
-    section("Agreement with other codes", format!("{head}{rows}\n"))
+    let rows = results.cases.iter().flat_map(|c| c.quantities.iter().filter_map(|q| row(&c.id, q)));
+    let head = [
+        "| case | number | code | run on | model | difference | accepted | verdict |",
+        "|---|---|---|---|---|---:|---|---|",
+    ];
+    table("Agreement with other codes", head, rows.collect())
+}
+
+fn shown(verdict: Option<Verdict>) -> String {
+    verdict.map_or("shown".to_owned(), |v| v.to_string())
 }
 
 /// A difference as it is, a value beside that of the code as their relative difference.
@@ -182,6 +177,12 @@ fn difference(q: &QuantityResult) -> String {
 /// A heading with what stands under it; nothing without that.
 fn section(heading: &str, body: String) -> String {
     if body.is_empty() { body } else { format!("## {heading}\n\n{body}") }
+}
+
+/// A section with a table: its header, the alignment of its columns, its rows; nothing without rows.
+fn table(heading: &str, [header, alignment]: [&str; 2], rows: String) -> String {
+    let body = if rows.is_empty() { rows } else { format!("{header}\n{alignment}\n{rows}\n") };
+    section(heading, body)
 }
 
 fn numbers(case: &CaseJudgement) -> String {
@@ -205,7 +206,7 @@ fn numbers(case: &CaseJudgement) -> String {
             interval(q).unwrap_or_default(),
             q.headroom.map_or(String::new(), share_left),
             evidence(q),
-            q.verdict.map_or("shown".to_owned(), |v| v.to_string()),
+            shown(q.verdict),
         );
     }
     text + "\n"

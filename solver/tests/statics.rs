@@ -6,8 +6,11 @@ use common::{Sandwich, continuum, prescribe};
 use seam_solver::coupling::{Method, Multipliers, Tie};
 use seam_solver::error::Error;
 use seam_solver::model::{Model, Part, PointValue};
+use seam_solver::solve::kkt::{EPSILONS, Kkt, Layout};
+use seam_solver::solve::sparse::{SymmetricMatrix, Triplets};
 use seam_solver::solve::statics;
 use seam_solver::space::{Space, Vec3};
+use seam_solver::work::Work;
 
 fn held() -> Model {
     let mut model = Sandwich::plane(4, 4, 4, Method::Pointwise).model();
@@ -196,5 +199,22 @@ fn a_slender_beam_is_solved_or_refused() {
     for ratio in [1e3, 3e3, 1e4, 1e5] {
         let found = slender(ratio);
         assert!(found.is_err(), "L/h = {ratio}: {found:?}");
+    }
+}
+
+#[test]
+fn what_is_not_finite_is_no_solution() {
+    let mut springs = Triplets::with_capacity(3);
+    springs.push_block(&[0, 1], &[2.0, -1.0, -1.0, 2.0]);
+    let stiffness = SymmetricMatrix::from_triplets(2, &springs);
+    let positions = [Vec3::zeros(), Vec3::new(1.0, 0.0, 0.0)];
+    let layout = Layout { space: Space::Plane, group: &[0, 1], positions: &positions, row_positions: &[] };
+    let mut work = Work::default();
+    let kkt = Kkt::new(&stiffness, &[], &layout, EPSILONS[0], &mut work).unwrap();
+    let u = kkt.solve(&[1.0, 0.0], &[], &mut work).unwrap().u;
+    assert!((u[0] - 2.0 / 3.0).abs() < 1e-15 && (u[1] - 1.0 / 3.0).abs() < 1e-15, "{u:?}");
+    for bad in [f64::NAN, f64::INFINITY] {
+        let error = kkt.solve(&[1.0, bad], &[], &mut work).unwrap_err().to_string();
+        assert!(error.contains("not finite"), "{error}");
     }
 }

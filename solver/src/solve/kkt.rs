@@ -147,7 +147,8 @@ impl Kkt {
         let mut x = vec![0.0; n + m];
         let mut best = (f64::INFINITY, x.clone());
         for _ in 0..MOST_REFINEMENTS {
-            let (mut r, now) = self.residual(&x, &f, &g, beside);
+            let (mut r, sizes) = self.residual(&x, &f, &g, beside);
+            let now = norm(&sizes);
             if !now.is_finite() {
                 return Err(Error::Solve {
                     message: "the solution is not finite; look for a mechanism".to_owned(),
@@ -184,19 +185,18 @@ impl Kkt {
     /// correction is what rounding does to the solution (Skeel 1980): it has to be small beside the solution.
     fn is_rounding(&self, x: &[f64], f: &[f64], g: &[f64], beside: [f64; 2], work: &mut Work) -> bool {
         let n = f.len();
-        let (mut r, _) = self.residual(x, f, g, beside);
-        let motion =
-            self.rows.iter().flatten().fold(norm(g).max(beside[1]), |m, &(i, b)| m.max((b * x[i]).abs()));
-        let forces_at_rounding =
-            norm(&r[..n]) <= ROUNDING * norm(&self.stiffness.multiply_magnitudes(&x[..n]));
-        let rows_hold = norm(&r[n..]) <= LARGEST_RESIDUAL * motion;
+        let (mut r, [_, gap]) = self.residual(x, f, g, beside);
+        let rounding = ROUNDING * norm(&self.stiffness.multiply_magnitudes(&x[..n]));
+        if norm(&r[..n]) > rounding || gap > LARGEST_RESIDUAL {
+            return false;
+        }
         self.correct(&mut r, work);
-        forces_at_rounding && rows_hold && norm(&r[..n]) <= LARGEST_CORRECTION * norm(&x[..n])
+        norm(&r[..n]) <= LARGEST_CORRECTION * norm(&x[..n])
     }
 
-    /// Residual of the true scaled system, and its size relative to the forces and displacements that it
-    /// balances. Multipliers are no yardstick: they are large where rows are nearly dependent.
-    fn residual(&self, x: &[f64], f: &[f64], g: &[f64], beside: [f64; 2]) -> (Vec<f64>, f64) {
+    /// Residual of the true scaled system, and the sizes of its two parts relative to the forces and displacements that they
+    /// balance. Multipliers are no yardstick: they are large where rows are nearly dependent.
+    fn residual(&self, x: &[f64], f: &[f64], g: &[f64], beside: [f64; 2]) -> (Vec<f64>, [f64; 2]) {
         let n = f.len();
         let mut internal = vec![0.0; n];
         self.stiffness.multiply_add(&x[..n], &mut internal);
@@ -212,8 +212,8 @@ impl Kkt {
         }
         // A state of rest has nothing to be relative to.
         let relative = |part: &[f64], size: f64| if size > 0.0 { norm(part) / size } else { norm(part) };
-        let size = relative(&r[..n], force).max(relative(&r[n..], motion));
-        (r, size)
+        let sizes = [relative(&r[..n], force), relative(&r[n..], motion)];
+        (r, sizes)
     }
 
     /// Unknowns and multipliers for several right-hand sides (forces, row values) by one pass through the factor, not refined: exact to
