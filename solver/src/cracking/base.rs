@@ -4,10 +4,10 @@ use super::capacitance::Capacitance;
 use super::modes::{Mode, product};
 use super::system::Weakened;
 use crate::dem;
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::fem;
 use crate::model::{Model, Numbering, Part};
-use crate::solve::kkt::{EPSILONS, Kkt, Layout};
+use crate::solve::kkt::{Kkt, Layout};
 use crate::solve::mechanism;
 use crate::solve::sparse::{SymmetricMatrix, Triplets};
 use crate::solve::statics::{self, Constraints};
@@ -62,7 +62,7 @@ pub(super) fn elements(model: &Model, numbering: &Numbering, work: &mut Work) ->
 const REFINED: f64 = 1e-13;
 /// A residual that refinement leaves above this calls for a new base.
 const REFUSED: f64 = 1e-11;
-/// Each gains what one pass through the factor gains: about seven digits where there are ties, more without.
+/// One is rarely called for; more only where the update is close to losing a pivot.
 const MOST_REFINEMENTS: usize = 5;
 
 impl Base {
@@ -91,7 +91,14 @@ impl Base {
         work: &mut Work,
     ) -> Result<(Self, (Vec<f64>, f64))> {
         let n = numbering.len();
-        let mut triplets = elements.clone();
+        let bonds = |part: &Part| match part {
+            Part::Discrete { network, .. } => network.bonds.len(),
+            _ => 0,
+        };
+        let bonds: usize = model.parts.iter().map(bonds).sum();
+        let dofs = 2 * model.space.dofs_per_particle();
+        let mut triplets = Triplets::with_capacity(elements.len() + bonds * dofs * (dofs + 1) / 2);
+        triplets.append(elements);
         for (p, part) in model.parts.iter().enumerate() {
             if let Part::Discrete { name, network } = part {
                 let offset = numbering.offset(p);
@@ -133,24 +140,16 @@ impl Base {
             base.solution = held;
             return Ok((base, (Vec::new(), f64::INFINITY)));
         }
-        let mut failure = None;
-        for epsilon in EPSILONS {
-            let kkt = Kkt::new(&reduced, &base.tied.reduced, &layout, epsilon, work)?;
-            let softest = kkt.softest_motion(work);
-            if softest.1 <= mechanism::FREE {
-                base.solution = held;
-                return Ok((base, softest));
-            }
-            match kkt.solve(&force, &base.tied.rhs, work) {
-                Ok(solution) => {
-                    base.solution = base.spread([&solution.u, &solution.multipliers], &held);
-                    base.kkt = Some(kkt);
-                    return Ok((base, softest));
-                }
-                Err(error) => failure = Some(error),
-            }
+        let kkt = Kkt::new(&reduced, &base.tied.reduced, &layout, work)?;
+        let softest = kkt.softest_motion(work);
+        if softest.1 <= mechanism::FREE {
+            base.solution = held;
+            return Ok((base, softest));
         }
-        Err(failure.unwrap_or_else(|| Error::Solve { message: "no factorisation was tried".to_owned() }))
+        let solution = kkt.solve(&force, &base.tied.rhs, work)?;
+        base.solution = base.spread([&solution.u, &solution.multipliers], &held);
+        base.kkt = Some(kkt);
+        Ok((base, softest))
     }
 
     /// A solution on all unknowns, then the multipliers; `held` are the values of the others.

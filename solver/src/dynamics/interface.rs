@@ -6,7 +6,7 @@
 use super::semidiscrete::row_product;
 use super::system::System;
 use crate::error::{Error, Result};
-use crate::solve::sparse::{Factor, Ordering, SymmetricMatrix, Triplets};
+use crate::solve::sparse::{Factor, SymmetricMatrix, Triplets, minimum_degree};
 use crate::stage::{Stage, timed};
 use crate::work::Work;
 
@@ -52,7 +52,7 @@ impl Interface {
             }
         }
         let h = SymmetricMatrix::from_triplets(rows.len(), &h);
-        let factor = timed(Stage::Factorisation, || Factor::new(&h, Ordering::MinimumDegree))?;
+        let factor = timed(Stage::Factorisation, || Factor::new(&h, &minimum_degree(&h)?))?;
         work.factored(factor.nonzeros());
         Ok(Interface { inverse_mass, scale, factor: Some(factor) })
     }

@@ -6,7 +6,7 @@
 use super::semidiscrete::{Semidiscrete, dot};
 use crate::error::{Error, Result};
 use crate::model::Model;
-use crate::solve::kkt::{EPSILONS, Kkt};
+use crate::solve::kkt::Kkt;
 use crate::solve::mechanism;
 use crate::work::Work;
 use nalgebra::DMatrix;
@@ -40,7 +40,7 @@ pub fn lowest(model: &Model, system: &Semidiscrete, count: usize, work: &mut Wor
         });
     }
     let block = block.min(independent);
-    let kkt = Kkt::new(&system.stiffness, &system.rows, &system.layout(), EPSILONS[0], work)?;
+    let kkt = Kkt::new(&system.stiffness, &system.rows, &system.layout(), work)?;
     mechanism::refuse(model, &system.numbering, &system.free, kkt.softest_motion(work))?;
     let zero = vec![0.0; system.rows.len()];
     // Irrational steps repeat no pattern of the model.

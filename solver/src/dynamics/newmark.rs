@@ -11,7 +11,7 @@
 
 use super::semidiscrete::{Motion, Semidiscrete};
 use crate::error::{Error, Result};
-use crate::solve::kkt::{EPSILONS, Kkt};
+use crate::solve::kkt::Kkt;
 use crate::solve::sparse::{SymmetricMatrix, Triplets};
 use crate::work::Work;
 use serde::{Deserialize, Serialize};
@@ -87,7 +87,7 @@ impl<'a> Newmark<'a> {
         system.mass.iter().enumerate().for_each(|(i, m)| triplets.push(i, i, on_mass * m));
         system.stiffness.entries().for_each(|(r, c, k)| triplets.push(r, c, on_stiffness * k));
         let matrix = SymmetricMatrix::from_triplets(system.mass.len(), &triplets);
-        let kkt = Kkt::new(&matrix, &system.rows, &system.layout(), EPSILONS[0], work)?;
+        let kkt = Kkt::new(&matrix, &system.rows, &system.layout(), work)?;
         Ok(Newmark { system, scheme, step, damping, kkt })
     }
 
@@ -148,7 +148,7 @@ pub fn start(
     for i in 0..rhs.len() {
         rhs[i] -= internal[i] + damping * system.mass[i] * v[i];
     }
-    let kkt = Kkt::new(&system.mass_matrix(), &system.rows, &system.layout(), EPSILONS[0], work)?;
+    let kkt = Kkt::new(&system.mass_matrix(), &system.rows, &system.layout(), work)?;
     // Held in equilibrium, the acceleration is rounding beside what K u would cause alone.
     let alone: Vec<f64> = internal.iter().zip(&system.mass).map(|(k, m)| k / m).collect();
     let solution = kkt.solve_beside(&rhs, &vec![0.0; system.rows.len()], [&internal, &alone], work)?;

@@ -4,7 +4,7 @@
 use super::semidiscrete::{Motion, Semidiscrete};
 use crate::error::Result;
 use crate::model::Model;
-use crate::solve::kkt::{EPSILONS, Kkt};
+use crate::solve::kkt::Kkt;
 use crate::solve::mechanism;
 use crate::work::Work;
 
@@ -20,7 +20,7 @@ impl<'a> QuasiStatic<'a> {
     /// # Errors
     /// A mechanism, or a factorisation that fails.
     pub fn new(model: &Model, system: &'a Semidiscrete, work: &mut Work) -> Result<Self> {
-        let kkt = Kkt::new(&system.stiffness, &system.rows, &system.layout(), EPSILONS[0], work)?;
+        let kkt = Kkt::new(&system.stiffness, &system.rows, &system.layout(), work)?;
         mechanism::refuse(model, &system.numbering, &system.free, kkt.softest_motion(work))?;
         Ok(QuasiStatic { system, kkt })
     }

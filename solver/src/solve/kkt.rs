@@ -4,15 +4,16 @@
 //! to a unit diagonal (so that rotations and displacements, soft and stiff bodies weigh
 //! alike), B to unit rows. Factorised is the quasi-definite
 //!
-//! `[K + γBᵀB + δ, Bᵀ; B, −ε]`, γ = 1, ε = 1e-7, δ = 1e-15 in scaled units,
+//! `[K + γBᵀB + δ, Bᵀ; B, −ε]`, γ = 1, ε = 1e-13, δ = 1e-15 in scaled units,
 //!
 //! and refinement runs on the residual of the *true* system with the right-hand side
-//! `[r_u + γBᵀr_λ; r_λ]` (Vanderbei 1995; augmented Lagrangian: Fortin and Glowinski 1983). It gains
-//! a factor of about ε over the softest constraint's response, so that it stalls where rows are
-//! nearly dependent; [`EPSILONS`] lists what to try next. δ lets a mechanism through to where it is named.
+//! `[r_u + γBᵀr_λ; r_λ]` (Vanderbei 1995; augmented Lagrangian: Fortin and Glowinski 1983). One pass leaves
+//! about ε over the softest constraint's response. ε can be that small because each row is eliminated after its unknowns: its pivot is
+//! then `−ε − b·(K + γBᵀB)⁻¹b` and of order one; eliminated before them, it would be −ε alone and `b bᵀ/ε` would drown
+//! the stiffness. δ lets a mechanism through to where it is named.
 
-use super::order::nested_dissection;
-use super::sparse::{Factor, Ordering, SymmetricMatrix, Triplets};
+use super::order::{nested_dissection, rows_after_unknowns};
+use super::sparse::{Factor, SymmetricMatrix, Triplets, minimum_degree};
 use crate::error::{Error, Result};
 use crate::space::{Space, Vec3};
 use crate::stage::{Stage, timed};
@@ -20,9 +21,10 @@ use crate::work::Work;
 
 const GAMMA: f64 = 1.0;
 const DELTA: f64 = 1e-15;
-/// Values of ε: the smaller, the quicker refinement over nearly dependent rows, but the more rounding in the factor.
-pub const EPSILONS: [f64; 2] = [1e-7, 1e-11];
-/// Refinement stops when the residual no longer halves, at the latest after this many steps.
+const EPSILON: f64 = 1e-13;
+/// A relative residual that is rounding alone: refinement stops.
+const SETTLED: f64 = 1e-15;
+/// It also stops when the residual no longer halves, at the latest after this many steps.
 const MOST_REFINEMENTS: usize = 12;
 /// A solution with a larger relative residual is refused, unless rounding alone keeps it there.
 pub const LARGEST_RESIDUAL: f64 = 1e-9;
@@ -73,7 +75,6 @@ impl Kkt {
         stiffness: &SymmetricMatrix,
         rows: &[Vec<(usize, f64)>],
         layout: &Layout,
-        epsilon: f64,
         work: &mut Work,
     ) -> Result<Self> {
         let n = stiffness.len();
@@ -95,22 +96,22 @@ impl Kkt {
             row_scale.push(1.0 / norm);
             scaled_rows.push(scaled.into_iter().map(|(i, b)| (i, b / norm)).collect());
         }
-        let mut scaled = Triplets::with_capacity(n * 10);
-        for (r, c, v) in stiffness.entries() {
-            scaled.push(r, c, v * unknown_scale[r] * unknown_scale[c]);
-        }
-        let stiffness = SymmetricMatrix::from_triplets(n, &scaled);
+        let stiffness = stiffness.scaled(&unknown_scale);
+        let of_row = |row: &Vec<(usize, f64)>| row.len() * (row.len() + 3) / 2 + 1;
+        let room = stiffness.stored() + n + scaled_rows.iter().map(of_row).sum::<usize>();
+        let mut scaled = Triplets::with_capacity(room);
+        stiffness.entries().for_each(|(r, c, v)| scaled.push(r, c, v));
         (0..n).for_each(|i| scaled.push(i, i, DELTA));
         for (k, row) in scaled_rows.iter().enumerate() {
             for &(i, bi) in row {
                 row.iter().for_each(|&(j, bj)| scaled.push(i, j, GAMMA * bi * bj));
                 scaled.push(n + k, i, bi);
             }
-            scaled.push(n + k, n + k, -epsilon);
+            scaled.push(n + k, n + k, -EPSILON);
         }
         let matrix = SymmetricMatrix::from_triplets(n + rows.len(), &scaled);
         drop(scaled);
-        let factor = timed(Stage::Factorisation, || factorise(&matrix, layout))?;
+        let factor = timed(Stage::Factorisation, || factorise(&matrix, &scaled_rows, layout))?;
         work.factored(factor.nonzeros());
         Ok(Kkt { stiffness, rows: scaled_rows, unknown_scale, row_scale, factor })
     }
@@ -158,7 +159,7 @@ impl Kkt {
             if now < best.0 {
                 best = (now, x.clone());
             }
-            if stalled || now == 0.0 {
+            if stalled || now <= SETTLED {
                 break;
             }
             self.correct(&mut r, work);
@@ -217,7 +218,7 @@ impl Kkt {
     }
 
     /// Unknowns and multipliers for several right-hand sides (forces, row values) by one pass through the factor, not refined: exact to
-    /// about ε where there are rows. For loops that refine on a residual of their own.
+    /// rounding as long as rows are not nearly dependent. For loops that refine on a residual of their own.
     pub fn apply(&self, sides: &[[&[f64]; 2]], work: &mut Work) -> Vec<[Vec<f64>; 2]> {
         let (n, m) = (self.unknown_scale.len(), self.row_scale.len());
         let mut x = Vec::with_capacity((n + m) * sides.len());
@@ -278,21 +279,17 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
-fn factorise(matrix: &SymmetricMatrix, layout: &Layout) -> Result<Factor> {
-    match layout.space {
-        Space::Plane => Factor::new(matrix, Ordering::MinimumDegree),
+fn factorise(matrix: &SymmetricMatrix, rows: &[Vec<(usize, f64)>], layout: &Layout) -> Result<Factor> {
+    let order = match layout.space {
+        Space::Plane => minimum_degree(matrix)?,
         Space::Solid => {
             let points = layout.positions.len() as u32;
-            let group: Vec<u32> = layout
-                .group
-                .iter()
-                .copied()
-                .chain((0..layout.row_positions.len() as u32).map(|k| points + k))
-                .collect();
-            let positions = [layout.positions, layout.row_positions].concat();
-            Factor::new(matrix, Ordering::Given(&nested_dissection(matrix, &group, &positions)))
+            let of_rows = (0..layout.row_positions.len() as u32).map(|k| points + k);
+            let group: Vec<u32> = layout.group.iter().copied().chain(of_rows).collect();
+            nested_dissection(matrix, &group, &[layout.positions, layout.row_positions].concat())
         }
-    }
+    };
+    Factor::new(matrix, &rows_after_unknowns(&order, rows))
 }
 
 /// Largest magnitude; NaN if there is one.

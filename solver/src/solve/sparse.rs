@@ -8,8 +8,7 @@ use crate::error::{Error, Result};
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::ldlt::factor::LdltRegularization;
 use faer::perm::PermRef;
-
-use faer::sparse::linalg::SymbolicSupernodalParams;
+use faer::sparse::linalg::amd;
 use faer::sparse::linalg::cholesky::{
     CholeskySymbolicParams, LdltRef, SymbolicCholesky, SymmetricOrdering, factorize_symbolic_cholesky,
 };
@@ -32,6 +31,23 @@ impl Triplets {
             cols: Vec::with_capacity(capacity),
             values: Vec::with_capacity(capacity),
         }
+    }
+
+    /// Number of entries.
+    pub fn len(&self) -> usize {
+        self.values.len()
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.values.is_empty()
+    }
+
+    /// Adds all entries of `other`.
+    pub fn append(&mut self, other: &Triplets) {
+        self.rows.extend_from_slice(&other.rows);
+        self.cols.extend_from_slice(&other.cols);
+        self.values.extend_from_slice(&other.values);
     }
 
     /// Adds `value` at `(row, col)`. Only the lower triangle is kept: an entry above the
@@ -71,7 +87,13 @@ impl SymmetricMatrix {
         // By rows, then by columns: both passes keep ties in the order of insertion, so that sums are the same bits every time.
         let (by_row, _) = counted(&triplets.rows, n, 0..triplets.rows.len() as u32);
         let (order, start) = counted(&triplets.cols, n, by_row.into_iter());
-        let mut matrix = SymmetricMatrix { n, column_start: vec![0], rows: Vec::new(), values: Vec::new() };
+        let mut matrix = SymmetricMatrix {
+            n,
+            column_start: Vec::with_capacity(n + 1),
+            rows: Vec::with_capacity(triplets.len()),
+            values: Vec::with_capacity(triplets.len()),
+        };
+        matrix.column_start.push(0);
         for c in 0..n {
             let first = matrix.rows.len();
             for &t in &order[start[c]..start[c + 1]] {
@@ -91,9 +113,39 @@ impl SymmetricMatrix {
         matrix
     }
 
+    /// `S A S` with the diagonal `S`.
+    pub fn scaled(&self, scale: &[f64]) -> Self {
+        let values = self.entries().map(|(r, c, v)| v * scale[r] * scale[c]).collect();
+        SymmetricMatrix { values, ..self.clone() }
+    }
+
+    /// The rows and columns that have a place among `n` others, in the same order; `usize::MAX` for those that have none.
+    pub fn principal(&self, place: &[usize], n: usize) -> Self {
+        let mut kept = SymmetricMatrix {
+            n,
+            column_start: Vec::with_capacity(n + 1),
+            rows: Vec::with_capacity(self.rows.len()),
+            values: Vec::with_capacity(self.values.len()),
+        };
+        kept.column_start.push(0);
+        for c in (0..self.n).filter(|&c| place[c] != usize::MAX) {
+            for (r, v) in self.column(c).filter(|(r, _)| place[*r] != usize::MAX) {
+                kept.rows.push(place[r] as u32);
+                kept.values.push(v);
+            }
+            kept.column_start.push(kept.rows.len() as u32);
+        }
+        kept
+    }
+
     /// Number of rows and columns.
     pub fn len(&self) -> usize {
         self.n
+    }
+
+    /// Number of stored entries.
+    pub fn stored(&self) -> usize {
+        self.values.len()
     }
 
     /// Whether it has no rows.
@@ -104,6 +156,10 @@ impl SymmetricMatrix {
     /// Entries of the lower triangle as `(row, column, value)`, by columns.
     pub fn entries(&self) -> impl Iterator<Item = (usize, usize, f64)> + '_ {
         (0..self.n).flat_map(move |c| self.column(c).map(move |(r, v)| (r, c, v)))
+    }
+
+    fn structure(&self) -> SymbolicSparseColMatRef<'_, u32> {
+        SymbolicSparseColMatRef::new_checked(self.n, self.n, &self.column_start, None, &self.rows)
     }
 
     fn column(&self, c: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
@@ -160,13 +216,25 @@ fn counted(keys: &[u32], n: usize, indices: impl Iterator<Item = u32>) -> (Vec<u
     (sorted, start)
 }
 
-/// How the unknowns are ordered before factorising.
-#[derive(Debug, Clone, Copy)]
-pub enum Ordering<'a> {
-    /// Approximate minimum degree.
-    MinimumDegree,
-    /// A given order: `order[k]` is the unknown that is eliminated as the `k`-th.
-    Given(&'a [u32]),
+/// Elimination order by approximate minimum degree (Amestoy, Davis and Duff 1996): `order[k]` is eliminated as the `k`-th.
+///
+/// # Errors
+/// A matrix that is too large.
+pub fn minimum_degree(matrix: &SymmetricMatrix) -> Result<Vec<u32>> {
+    let n = matrix.n;
+    let (mut order, mut inverse) = (vec![0; n], vec![0; n]);
+    let mut memory = MemBuffer::new(amd::order_scratch::<u32>(n, matrix.stored()));
+    let failed =
+        |e| Error::Solve { message: format!("ordering {n} unknowns failed: {e:?}; use a coarser model") };
+    amd::order(
+        &mut order,
+        &mut inverse,
+        matrix.structure(),
+        amd::Control::default(),
+        MemStack::new(&mut memory),
+    )
+    .map_err(failed)?;
+    Ok(order)
 }
 
 /// An LDLᵀ factor.
@@ -176,28 +244,18 @@ pub struct Factor {
 }
 
 impl Factor {
-    /// Factorises a positive definite or quasi-definite matrix.
+    /// Factorises a positive definite or quasi-definite matrix; `order[k]` is the unknown that is eliminated as the `k`-th.
     ///
     /// # Errors
     /// A matrix that is too large, or whose factor has entries that are not finite.
-    pub fn new(matrix: &SymmetricMatrix, ordering: Ordering) -> Result<Self> {
+    pub fn new(matrix: &SymmetricMatrix, order: &[u32]) -> Result<Self> {
         let n = matrix.n;
         let failed = |message: String| Error::Solve { message };
-        let structure = SymbolicSparseColMatRef::new_checked(n, n, &matrix.column_start, None, &matrix.rows);
-        let inverse = match ordering {
-            Ordering::MinimumDegree => Vec::new(),
-            Ordering::Given(order) => invert(order),
-        };
-        let order = match ordering {
-            Ordering::MinimumDegree => SymmetricOrdering::Amd,
-            Ordering::Given(order) => SymmetricOrdering::Custom(PermRef::new_checked(order, &inverse, n)),
-        };
-        let parameters = CholeskySymbolicParams {
-            supernodal_params: SymbolicSupernodalParams::default(),
-            ..Default::default()
-        };
-        let symbolic =
-            factorize_symbolic_cholesky(structure, Side::Lower, order, parameters).map_err(|e| {
+        let inverse = invert(order);
+        let order = SymmetricOrdering::Custom(PermRef::new_checked(order, &inverse, n));
+        let parameters = CholeskySymbolicParams::default();
+        let symbolic = factorize_symbolic_cholesky(matrix.structure(), Side::Lower, order, parameters)
+            .map_err(|e| {
                 failed(format!("symbolic factorisation of {n} unknowns failed: {e:?}; use a coarser model"))
             })?;
         let mut values = vec![0.0; symbolic.len_val()];
@@ -208,7 +266,7 @@ impl Factor {
         symbolic
             .factorize_numeric_ldlt(
                 &mut values,
-                SparseColMatRef::new(structure, &matrix.values),
+                SparseColMatRef::new(matrix.structure(), &matrix.values),
                 Side::Lower,
                 LdltRegularization::default(),
                 Par::Seq,
@@ -282,9 +340,8 @@ mod tests {
         let x: Vec<f64> = (0..n).map(|i| (i as f64).sin()).collect();
         let mut b = vec![0.0; n];
         a.multiply_add(&x, &mut b);
-        let reversed: Vec<u32> = (0..n as u32).rev().collect();
-        for ordering in [Ordering::MinimumDegree, Ordering::Given(&reversed)] {
-            let factor = Factor::new(&a, ordering).expect("it factorises");
+        for order in [minimum_degree(&a).expect("small"), (0..n as u32).rev().collect()] {
+            let factor = Factor::new(&a, &order).expect("it factorises");
             let mut y = b.clone();
             factor.solve_in_place(&mut y);
             let error = x.iter().zip(&y).map(|(p, q)| (p - q).abs()).fold(0.0, f64::max);

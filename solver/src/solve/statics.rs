@@ -1,6 +1,6 @@
 //! Linear statics of a model: one factorisation, one right-hand side.
 
-use super::kkt::{EPSILONS, Kkt, KktSolution, Layout};
+use super::kkt::{Kkt, KktSolution, Layout};
 use super::mechanism;
 use super::sparse::{SymmetricMatrix, Triplets};
 use crate::coupling::{Row, assemble, rank};
@@ -102,7 +102,7 @@ pub fn solve(model: &Model) -> Result<Solution> {
     Ok(Solution { numbering, u, reactions, multipliers, energy, residual, work, notes: tied.notes })
 }
 
-/// Factorises, refuses mechanisms and solves; once more with the next ε where refinement stalls.
+/// Factorises, refuses mechanisms and solves.
 fn equilibrium(
     stiffness: &SymmetricMatrix,
     tied: &Constraints,
@@ -111,18 +111,9 @@ fn equilibrium(
     work: &mut Work,
     refuse_mechanism: impl Fn((Vec<f64>, f64)) -> Result<()>,
 ) -> Result<KktSolution> {
-    let [first, rest @ ..] = EPSILONS;
-    let kkt = Kkt::new(stiffness, &tied.reduced, layout, first, work)?;
+    let kkt = Kkt::new(stiffness, &tied.reduced, layout, work)?;
     refuse_mechanism(kkt.softest_motion(work))?;
-    let mut solution = timed(Stage::Steps, || kkt.solve(load, &tied.rhs, work));
-    drop(kkt);
-    for epsilon in rest {
-        if solution.is_ok() {
-            break;
-        }
-        solution = Kkt::new(stiffness, &tied.reduced, layout, epsilon, work)?.solve(load, &tied.rhs, work);
-    }
-    solution
+    timed(Stage::Steps, || kkt.solve(load, &tied.rhs, work))
 }
 
 /// Stiffness matrix of all parts on all unknowns.
@@ -216,16 +207,14 @@ pub(crate) fn eliminate(
     place: &[usize],
 ) -> (SymmetricMatrix, Vec<f64>) {
     let mut load: Vec<f64> = free.iter().map(|&i| f[i]).collect();
-    let mut triplets = Triplets::with_capacity(stiffness.entries().size_hint().0);
     for (r, c, v) in stiffness.entries() {
         match (prescribed[r], prescribed[c]) {
-            (None, None) => triplets.push(place[r], place[c], v),
             (Some(value), None) => load[place[c]] -= v * value,
             (None, Some(value)) => load[place[r]] -= v * value,
-            (Some(_), Some(_)) => {}
+            _ => {}
         }
     }
-    (SymmetricMatrix::from_triplets(free.len(), &triplets), load)
+    (stiffness.principal(place, free.len()), load)
 }
 
 /// For each free unknown the point it belongs to, and the positions of these points.

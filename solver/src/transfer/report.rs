@@ -5,7 +5,7 @@ use crate::dynamics::State;
 use crate::dynamics::semidiscrete::{Semidiscrete, dot, lumped};
 use crate::error::Result;
 use crate::model::{Model, Numbering, Part};
-use crate::solve::kkt::{EPSILONS, Kkt};
+use crate::solve::kkt::Kkt;
 use crate::solve::statics;
 use crate::space::{Vec3, components};
 use crate::work::Work;
@@ -41,7 +41,7 @@ pub fn balance(model: &Model, state: &State, factor: f64, work: &mut Work) -> Re
     stiffness.multiply_add(&state.u, &mut internal);
     let inner: Vec<f64> = system.free.iter().map(|&i| internal[i]).collect();
     let rhs: Vec<f64> = system.load.iter().zip(&inner).map(|(f, k)| factor * f - k).collect();
-    let kkt = Kkt::new(&system.mass_matrix(), &system.rows, &system.layout(), EPSILONS[0], work)?;
+    let kkt = Kkt::new(&system.mass_matrix(), &system.rows, &system.layout(), work)?;
     let alone: Vec<f64> = inner.iter().zip(&system.mass).map(|(k, m)| k / m).collect();
     let a = kkt.solve_beside(&rhs, &vec![0.0; system.rows.len()], [&inner, &alone], work)?.u;
     let unbalanced = a.iter().zip(&system.mass).map(|(a, m)| m * a * a).sum::<f64>().sqrt();

@@ -1,7 +1,7 @@
 //! One factorised stiffness and its solutions, checked on the true residual.
 
 use crate::error::{Error, Result};
-use crate::solve::sparse::{Factor, Ordering, SymmetricMatrix, Triplets};
+use crate::solve::sparse::{Factor, SymmetricMatrix, Triplets, minimum_degree};
 use crate::work::Work;
 
 /// Largest relative residual that is accepted: one refinement reaches the rounding floor, some 1e-13.
@@ -17,7 +17,7 @@ impl Equilibrium {
     /// Sums and factorises `unknowns` equations.
     pub fn new(unknowns: usize, triplets: &Triplets, work: &mut Work) -> Result<Self> {
         let matrix = SymmetricMatrix::from_triplets(unknowns, triplets);
-        let factor = Factor::new(&matrix, Ordering::MinimumDegree)?;
+        let factor = Factor::new(&matrix, &minimum_degree(&matrix)?)?;
         work.factored(factor.nonzeros());
         Ok(Self { matrix, factor })
     }

@@ -3,14 +3,18 @@
 //! The cell of particle `i` is `{x : |x−x_i|² − R_i² ≤ |x−x_j|² − R_j² for all j}`: the convex
 //! body that the radical planes of its neighbours cut out of the box (Aurenhammer 1987). With equal
 //! radii it is the Voronoi cell. Neighbours that share a facet are joined by an edge of the
-//! (regular) Delaunay triangulation. The plane is treated as a slab of constant thickness.
+//! (regular) Delaunay triangulation.
 
+mod convex;
+mod polygon;
 mod polyhedron;
 
 use super::block::Block;
 use super::grid::{Boundary, Grid, Near};
 use crate::error::{Error, Result};
 use crate::space::{Space, Vec3};
+use convex::Convex;
+use polygon::Polygon;
 use polyhedron::Polyhedron;
 
 /// A common facet of two cells.
@@ -58,8 +62,11 @@ pub fn cells(
     let spacing = (block.measure(space) / position.len().max(1) as f64).powf(1.0 / space.dim() as f64);
     let grid = Grid::new(space, block, boundary, position, spacing);
     let largest = radius.iter().copied().fold(0.0, f64::max);
-    let search = Search { space, block, boundary, grid, position, radius, spacing, largest };
-    (0..position.len()).map(|i| search.cell(i)).collect()
+    let search = Search { block, boundary, grid, position, radius, spacing, largest };
+    match space {
+        Space::Plane => (0..position.len()).map(|i| search.cell::<Polygon<_>>(i)).collect(),
+        Space::Solid => (0..position.len()).map(|i| search.cell::<Polyhedron<_>>(i)).collect(),
+    }
 }
 
 fn no_cell(particle: usize, message: &str) -> Error {
@@ -67,7 +74,6 @@ fn no_cell(particle: usize, message: &str) -> Error {
 }
 
 struct Search<'a> {
-    space: Space,
     block: Block,
     boundary: Boundary,
     grid: Grid,
@@ -78,17 +84,18 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
-    fn cell(&self, i: usize) -> Result<Cell> {
+    fn cell<C: Convex<Behind>>(&self, i: usize) -> Result<Cell> {
         let mut reach = 2.5 * self.spacing;
+        let mut near = Vec::new();
         loop {
-            let mut near = Vec::new();
+            near.clear();
             self.grid.for_each_within(self.position[i], reach, |n| {
                 if n.point != i || n.shift != [0; 3] {
                     near.push(n);
                 }
             });
             near.sort_by(|a, b| a.offset.norm_squared().total_cmp(&b.offset.norm_squared()));
-            if let Some(cell) = self.cut(i, &near, reach) {
+            if let Some(cell) = self.cut::<C>(i, &near, reach) {
                 return if cell.measure > 0.0 {
                     Ok(cell)
                 } else {
@@ -101,17 +108,17 @@ impl Search<'_> {
 
     /// Cuts the box by the radical planes of the particles near `i`, nearest first; `None` if one
     /// farther than `reach` could still cut.
-    fn cut(&self, i: usize, near: &[Near], reach: f64) -> Option<Cell> {
-        let mut cell = self.start(i);
+    fn cut<C: Convex<Behind>>(&self, i: usize, near: &[Near], reach: f64) -> Option<Cell> {
+        let mut cell: C = self.start(i);
         let weight = self.radius[i] * self.radius[i];
         // The radical plane of a particle at distance D lies at least (D² + R_i² − R_max²)/2D away.
         let excess = self.largest * self.largest - weight;
         let nearest_plane = |d: f64| (d * d - excess) / (2.0 * d);
-        let mut far = cell.reach(self.space);
+        let mut far = cell.reach();
         for n in near {
             let d = n.offset.norm();
             if nearest_plane(d) > far {
-                return Some(self.measure(&cell));
+                return Some(measure(&cell));
             }
             let other = self.radius[n.point] * self.radius[n.point];
             let normal = n.offset / d;
@@ -120,9 +127,9 @@ impl Search<'_> {
             {
                 return Some(Cell::default());
             }
-            far = cell.reach(self.space);
+            far = cell.reach();
         }
-        (nearest_plane(reach) > far || self.has_all(near)).then(|| self.measure(&cell))
+        (nearest_plane(reach) > far || self.has_all(near)).then(|| measure(&cell))
     }
 
     /// In a closed box there is nothing beyond all its particles.
@@ -131,45 +138,30 @@ impl Search<'_> {
     }
 
     /// The box seen from particle `i`; if it repeats, what its own images leave of it.
-    fn start(&self, i: usize) -> Polyhedron<Behind> {
-        let sides = self.block.sides();
+    fn start<C: Convex<Behind>>(&self, i: usize) -> C {
         let x = self.position[i];
-        let mut low = self.block.min - x;
-        let mut high = self.block.max - x;
-        if self.boundary == Boundary::Periodic {
-            (low, high) = (-0.5 * sides, 0.5 * sides);
-        }
-        if self.space == Space::Plane {
-            (low.z, high.z) = (-0.5 * self.spacing, 0.5 * self.spacing);
-        }
-        let mut cell = Polyhedron::cuboid(low, high, Behind::Box);
-        if self.boundary == Boundary::Periodic {
-            for axis in 0..self.space.dim() {
-                for (end, step) in [(0, -1), (1, 1)] {
+        match self.boundary {
+            Boundary::Closed => C::cuboid(self.block.min - x, self.block.max - x, |_, _| Behind::Box),
+            Boundary::Periodic => {
+                let half = 0.5 * self.block.sides();
+                C::cuboid(-half, half, |axis, end| {
                     let mut shift = [0; 3];
-                    shift[axis] = step;
-                    cell.faces[2 * axis + end].behind = Behind::Particle(i, shift);
-                }
+                    shift[axis] = if end == 0 { -1 } else { 1 };
+                    Behind::Particle(i, shift)
+                })
             }
         }
-        cell
     }
+}
 
-    fn measure(&self, cell: &Polyhedron<Behind>) -> Cell {
-        let slab = if self.space == Space::Plane { self.spacing } else { 1.0 };
-        let mut facets: Vec<Facet> = cell
-            .faces
-            .iter()
-            .filter_map(|face| match face.behind {
-                Behind::Box => None,
-                Behind::Particle(neighbour, shift) => {
-                    Some(Facet { neighbour, shift, measure: cell.area(face) / slab })
-                }
-            })
-            .collect();
-        facets.sort_by_key(|f| (f.neighbour, f.shift));
-        Cell { measure: cell.volume() / slab, facets }
-    }
+fn measure(cell: &impl Convex<Behind>) -> Cell {
+    let facet = |(behind, measure)| match behind {
+        Behind::Box => None,
+        Behind::Particle(neighbour, shift) => Some(Facet { neighbour, shift, measure }),
+    };
+    let mut facets: Vec<Facet> = cell.facets().filter_map(facet).collect();
+    facets.sort_by_key(|f| (f.neighbour, f.shift));
+    Cell { measure: cell.measure(), facets }
 }
 
 #[cfg(test)]
@@ -235,6 +227,37 @@ mod tests {
             let sum: f64 = cells.iter().map(|c| c.measure).sum();
             assert!((sum - 1.0).abs() < 1e-10, "{space:?} {sum}");
             check_pairs(&cells);
+        }
+    }
+
+    /// Polygons against polyhedra: cells of the plane are those of a slab, by its thickness.
+    #[test]
+    fn plane_cells_are_those_of_a_slab() {
+        let slab = Block::at_origin(Space::Solid, Vec3::new(3.0, 2.0, 0.5)).unwrap();
+        let plane = Block::at_origin(Space::Plane, Vec3::new(3.0, 2.0, 0.0)).unwrap();
+        let (mut points, radius) = scattered(Space::Plane, plane, 200);
+        // On corners and sides too, and on a square lattice, where four lines meet in a corner.
+        points.extend([[0.0, 0.0], [3.0, 1.0], [1.5, 2.0]].map(|[x, y]| Vec3::new(x, y, 0.0)));
+        let lattice =
+            (0..42).map(|k| Vec3::new(f64::from(k % 7) / 2.0, f64::from(k / 7) / 2.5, 0.0)).collect();
+        for (points, radius) in
+            [(points, radius.iter().map(|r| 0.3 * r).chain([0.0; 3]).collect()), (lattice, vec![0.1; 42])]
+        {
+            let middle: Vec<Vec3> = points.iter().map(|x| x + Vec3::new(0.0, 0.0, 0.25)).collect();
+            let flat = cells(Space::Plane, plane, Boundary::Closed, &points, &radius).unwrap();
+            let thick = cells(Space::Solid, slab, Boundary::Closed, &middle, &radius).unwrap();
+            for (flat, thick) in flat.iter().zip(&thick) {
+                assert!((flat.measure - thick.measure / 0.5).abs() < 1e-12);
+                let of = |cell: &Cell, by: f64| -> Vec<(usize, f64)> {
+                    let wide = cell.facets.iter().filter(|f| f.measure > 1e-9);
+                    wide.map(|f| (f.neighbour, f.measure / by)).collect()
+                };
+                let (flat, thick) = (of(flat, 1.0), of(thick, 0.5));
+                assert_eq!(flat.len(), thick.len());
+                for (a, b) in flat.iter().zip(&thick) {
+                    assert!(a.0 == b.0 && (a.1 - b.1).abs() < 1e-12, "{a:?} {b:?}");
+                }
+            }
         }
     }
 

@@ -7,7 +7,7 @@ use crate::dynamics::newmark::check_step;
 use crate::dynamics::semidiscrete::{Semidiscrete, dot, row_product};
 use crate::error::{Error, Result};
 use crate::model::{Model, Part};
-use crate::solve::kkt::{EPSILONS, Kkt, Layout};
+use crate::solve::kkt::{Kkt, Layout};
 use crate::solve::sparse::{SymmetricMatrix, Triplets};
 use crate::work::Work;
 use serde::{Deserialize, Serialize};
@@ -229,7 +229,7 @@ fn factorise(
         group.push(positions.len() as u32 - 1);
     }
     let layout = Layout { space: whole.space, group: &group, positions: &positions, row_positions: &[] };
-    Kkt::new(matrix, &[], &layout, EPSILONS[0], work)
+    Kkt::new(matrix, &[], &layout, work)
 }
 
 /// Rounds of power iteration: from below, so that only steps that are certainly unstable are refused.
