@@ -34,6 +34,9 @@ pub struct Margin {
     pub how: String,
 }
 
+/// Width of a search that rounding ends: another order of elimination or another processor repeats no more than the factor of two.
+pub const ROUNDING: f64 = 1.0;
+
 /// Where to look for a margin.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Search {

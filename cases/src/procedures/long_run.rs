@@ -8,7 +8,7 @@ use super::hard::bodies::{SPACES, bonded, close_packed};
 use super::specimen::{block, wave};
 use super::{Setting, rounding};
 use crate::error::Result;
-use crate::margin::Search;
+use crate::margin::{ROUNDING, Search};
 use crate::observe::curve::nan_max;
 use crate::result::{CaseResult, Role};
 use crate::study::stability::trend;
@@ -120,11 +120,11 @@ fn margins(setting: &Setting, result: &mut CaseResult) -> Result<()> {
         let model = bonded(close_packed(space, side, rows, material, ratio, matter).map_err(refuse)?);
         let bound = critical::bound(&model).map_err(refuse)?.step_s;
         type Swing = fn(&Model, f64, u64, &mut CaseResult) -> seam_solver::error::Result<f64>;
-        for (code, name, swing, to) in [
-            ("explicit", "explicit", explicit as Swing, 2.0),
-            ("implicit", "trapezoidal rule", implicit, 1e4),
+        for (code, name, swing, to, tolerance) in [
+            ("explicit", "explicit", explicit as Swing, 2.0, 0.01),
+            ("implicit", "trapezoidal rule", implicit, 1e4, ROUNDING),
         ] {
-            let search = Search { from: 0.25, to, tolerance: 0.01 };
+            let search = Search { from: 0.25, to, tolerance };
             let found = search.largest(|share| match swing(&model, share * bound, steps, result) {
                 Ok(swing) => Ok(swing <= 1e-9),
                 Err(Error::UnstableStep { .. }) => Ok(false),

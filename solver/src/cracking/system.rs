@@ -110,11 +110,12 @@ impl System {
     }
 
     /// The system of a model that takes the place of the one of `old`: with bonds that are broken already, whose pieces are taken off, and
-    /// with the work and notes of both.
+    /// with the work and notes of both. The old one lets go of its factor first.
     ///
     /// # Errors
     /// As [`System::new`]; what carries load is not held.
-    pub fn resumed(model: &Model, updating: Updating, old: &System) -> Result<Self> {
+    pub fn resumed(model: &Model, updating: Updating, old: &mut System) -> Result<Self> {
+        old.base.forget();
         crate::check::model(model)?;
         let numbering = Numbering::new(model);
         let mut work = old.work;

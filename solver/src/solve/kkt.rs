@@ -97,20 +97,16 @@ impl Kkt {
             scaled_rows.push(scaled.into_iter().map(|(i, b)| (i, b / norm)).collect());
         }
         let stiffness = stiffness.scaled(&unknown_scale);
-        let of_row = |row: &Vec<(usize, f64)>| row.len() * (row.len() + 3) / 2 + 1;
-        let room = stiffness.stored() + n + scaled_rows.iter().map(of_row).sum::<usize>();
-        let mut scaled = Triplets::with_capacity(room);
-        stiffness.entries().for_each(|(r, c, v)| scaled.push(r, c, v));
-        (0..n).for_each(|i| scaled.push(i, i, DELTA));
+        let mut added = Triplets::with_capacity(n + rows.len());
+        (0..n).for_each(|i| added.push(i, i, DELTA));
         for (k, row) in scaled_rows.iter().enumerate() {
             for &(i, bi) in row {
-                row.iter().for_each(|&(j, bj)| scaled.push(i, j, GAMMA * bi * bj));
-                scaled.push(n + k, i, bi);
+                row.iter().for_each(|&(j, bj)| added.push(i, j, GAMMA * bi * bj));
+                added.push(n + k, i, bi);
             }
-            scaled.push(n + k, n + k, -EPSILON);
+            added.push(n + k, n + k, -EPSILON);
         }
-        let matrix = SymmetricMatrix::from_triplets(n + rows.len(), &scaled);
-        drop(scaled);
+        let matrix = stiffness.plus(&SymmetricMatrix::from_triplets(n + rows.len(), &added));
         let factor = timed(Stage::Factorisation, || factorise(&matrix, &scaled_rows, layout))?;
         work.factored(factor.nonzeros());
         Ok(Kkt { stiffness, rows: scaled_rows, unknown_scale, row_scale, factor })

@@ -87,13 +87,7 @@ impl SymmetricMatrix {
         // By rows, then by columns: both passes keep ties in the order of insertion, so that sums are the same bits every time.
         let (by_row, _) = counted(&triplets.rows, n, 0..triplets.rows.len() as u32);
         let (order, start) = counted(&triplets.cols, n, by_row.into_iter());
-        let mut matrix = SymmetricMatrix {
-            n,
-            column_start: Vec::with_capacity(n + 1),
-            rows: Vec::with_capacity(triplets.len()),
-            values: Vec::with_capacity(triplets.len()),
-        };
-        matrix.column_start.push(0);
+        let mut matrix = SymmetricMatrix::with_room(n, triplets.len());
         for c in 0..n {
             let first = matrix.rows.len();
             for &t in &order[start[c]..start[c + 1]] {
@@ -102,13 +96,10 @@ impl SymmetricMatrix {
                     Some(&last) if matrix.rows.len() > first && last == row => {
                         *matrix.values.last_mut().expect("rows and values have one length") += value;
                     }
-                    _ => {
-                        matrix.rows.push(row);
-                        matrix.values.push(value);
-                    }
+                    _ => matrix.push(row as usize, value),
                 }
             }
-            matrix.column_start.push(matrix.rows.len() as u32);
+            matrix.close_column();
         }
         matrix
     }
@@ -119,21 +110,50 @@ impl SymmetricMatrix {
         SymmetricMatrix { values, ..self.clone() }
     }
 
+    /// The sum with a matrix that has as many unknowns or more.
+    pub fn plus(&self, other: &SymmetricMatrix) -> Self {
+        let room = self.stored() + other.stored();
+        let mut sum = SymmetricMatrix::with_room(other.n, room);
+        for c in 0..other.n {
+            let mut own = (c < self.n).then(|| self.column(c)).into_iter().flatten().peekable();
+            for (row, value) in other.column(c) {
+                while let Some((r, v)) = own.next_if(|(r, _)| *r < row) {
+                    sum.push(r, v);
+                }
+                let here = own.next_if(|(r, _)| *r == row).map_or(0.0, |(_, v)| v);
+                sum.push(row, here + value);
+            }
+            own.for_each(|(r, v)| sum.push(r, v));
+            sum.close_column();
+        }
+        sum
+    }
+
+    fn with_room(n: usize, entries: usize) -> Self {
+        let mut column_start = Vec::with_capacity(n + 1);
+        column_start.push(0);
+        let (rows, values) = (Vec::with_capacity(entries), Vec::with_capacity(entries));
+        SymmetricMatrix { n, column_start, rows, values }
+    }
+
+    /// Appends an entry to the last column, below those it has.
+    fn push(&mut self, row: usize, value: f64) {
+        self.rows.push(row as u32);
+        self.values.push(value);
+    }
+
+    fn close_column(&mut self) {
+        self.column_start.push(self.rows.len() as u32);
+    }
+
     /// The rows and columns that have a place among `n` others, in the same order; `usize::MAX` for those that have none.
     pub fn principal(&self, place: &[usize], n: usize) -> Self {
-        let mut kept = SymmetricMatrix {
-            n,
-            column_start: Vec::with_capacity(n + 1),
-            rows: Vec::with_capacity(self.rows.len()),
-            values: Vec::with_capacity(self.values.len()),
-        };
-        kept.column_start.push(0);
+        let mut kept = SymmetricMatrix::with_room(n, self.stored());
         for c in (0..self.n).filter(|&c| place[c] != usize::MAX) {
             for (r, v) in self.column(c).filter(|(r, _)| place[*r] != usize::MAX) {
-                kept.rows.push(place[r] as u32);
-                kept.values.push(v);
+                kept.push(place[r], v);
             }
-            kept.column_start.push(kept.rows.len() as u32);
+            kept.close_column();
         }
         kept
     }

@@ -11,7 +11,7 @@ use super::two_rates::{Setup, fate};
 use super::unrefused::Unrefused;
 use crate::error::Result;
 use crate::map::Cell;
-use crate::margin::Search;
+use crate::margin::{ROUNDING, Search};
 use crate::result::CaseResult;
 use seam_solver::coupling::Method as Tying;
 use seam_solver::dem::arrangement::Matter;
@@ -160,7 +160,7 @@ fn implicit(setting: &Setting, space: Space, id: &str, result: &mut CaseResult) 
         }
         Ok(worst)
     };
-    let search = Search { from: 1.0, to: setting.number("implicit_to")?, tolerance: 0.05 };
+    let search = Search { from: 1.0, to: setting.number("implicit_to")?, tolerance: ROUNDING };
     let found =
         search.largest(|factor| lost(factor).map(|lost| lost <= 1e-8).map_err(|e| setting.solver(e)))?;
     counted += *work;

@@ -8,7 +8,7 @@ use super::super::compared::within;
 use super::super::{Setting, rounding};
 use super::bodies::{SPACES, bonded, close_packed_of};
 use crate::error::Result;
-use crate::margin::{Margin, Search};
+use crate::margin::{Margin, ROUNDING, Search};
 use crate::observe::curve::nan_max;
 use crate::result::CaseResult;
 use seam_solver::cracking::{Cracking, Options as Cracks};
@@ -84,7 +84,7 @@ pub fn run(setting: &Setting, result: &mut CaseResult) -> Result<()> {
             ));
             let search = match code {
                 "explicit" => Search { from: 0.1, to: 1.0, tolerance: 0.01 },
-                _ => Search { from: 0.1, to: setting.number("implicit_to")?, tolerance: 0.1 },
+                _ => Search { from: 0.1, to: setting.number("implicit_to")?, tolerance: ROUNDING },
             };
             let found = search.largest(|share| {
                 let open = breaking(&network, steps, share, &mut result.work).map_err(refuse)?;
