@@ -181,3 +181,28 @@ fn particles_that_come_too_late_are_not_trusted() {
     );
     assert!(substitution.why.contains("lower the trigger"), "{}", substitution.why);
 }
+
+/// A crack that closes on the way and is open again at the end: its broken pairs have run into each other, and the result says so.
+#[test]
+fn a_crack_that_closes_on_the_way_calls_for_contact() {
+    let called_for = |changes: &[&str]| {
+        let changes: Vec<Override> = changes.iter().map(|c| Override::parse(c).unwrap()).collect();
+        let file = seam_cases::catalogue::case("effects-contact", &changes).unwrap();
+        let result = seam_cases::study::run(&file, Tier::Quick, &Checkpoints::default()).unwrap().result;
+        let contact = result.effects.iter().find(|e| e.name == "contact").unwrap().clone();
+        assert!(!contact.on);
+        contact.called_for
+    };
+    let opened = [
+        "contact=none",
+        "dynamics.end_s=5*period_s",
+        "dynamics.loads={ table = [[0, 0], [\"2*period_s\", 1]] }",
+    ];
+    assert!(!called_for(&opened));
+    let reopened = [
+        "contact=none",
+        "dynamics.end_s=13*period_s",
+        "dynamics.loads={ table = [[0, 0], [\"2*period_s\", 1], [\"4*period_s\", 1], [\"7*period_s\", -1], [\"10*period_s\", 1]] }",
+    ];
+    assert!(called_for(&reopened));
+}

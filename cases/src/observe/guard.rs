@@ -4,6 +4,7 @@ use crate::error::Result;
 use crate::file::SceneFile;
 use crate::model::{Built, switches_left_out};
 use crate::observe::curve::nan_max;
+use seam_solver::dem::network::Network;
 use seam_solver::failure::Failure;
 use seam_solver::fem::continuum::Continuum;
 use seam_solver::model::{Model, Numbering, Part};
@@ -22,7 +23,7 @@ pub struct Seen {
     pub largest_demand: Option<f64>,
     /// Strain energy, in J.
     pub strain: f64,
-    /// Energy that broken pairs which have closed would hold if they were bonds, in J: `Σ ½ k_n δ²`. Of a run in time at its end.
+    /// Energy that broken pairs which have closed would hold if they were bonds, in J: `Σ ½ k_n δ²`.
     pub closed: f64,
 }
 
@@ -78,7 +79,7 @@ impl Guard {
             self.seen.largest_rotation = self.seen.largest_rotation.max(turned);
         }
         self.seen.strain = self.seen.strain.max(strain);
-        self.seen.closed = self.seen.closed.max(closed(model, &numbering, u));
+        self.watch_pairs(networks(model), &numbering, u, 1.0);
         for (part, law) in &self.laws {
             let Some(Part::Discrete { network, .. }) = model.parts.get(*part) else { continue };
             law.demands_at(network, &u[numbering.offset(*part)..], &mut self.demands);
@@ -96,23 +97,52 @@ impl Guard {
         }
         Ok(())
     }
+
+    /// Looks at a state of a path that cracks, at load factor one and at `factor`, with its strain energy at `factor`, in J.
+    pub fn watch_crack(
+        &mut self,
+        model: &Model,
+        numbering: &Numbering,
+        u: &[f64],
+        [factor, strain]: [f64; 2],
+    ) {
+        self.seen.strain = self.seen.strain.max(strain);
+        self.watch_pairs(networks(model), numbering, u, factor);
+    }
+
+    /// Looks at what has become of broken pairs of networks, given with their parts, at `factor` times the motion `u`.
+    pub fn watch_pairs<'a>(
+        &mut self,
+        networks: impl Iterator<Item = (usize, &'a Network)>,
+        numbering: &Numbering,
+        u: &[f64],
+        factor: f64,
+    ) {
+        let energy =
+            networks.map(|(part, network)| closed(network, &u[numbering.offset(part)..])).sum::<f64>();
+        self.seen.closed = self.seen.closed.max(factor * factor * energy);
+    }
 }
 
-/// `Σ ½ k_n δ²` over the broken pairs that are closer than they were, by δ along the line between them.
-fn closed(model: &Model, numbering: &Numbering, u: &[f64]) -> f64 {
-    let dim = model.space.dim();
+/// Networks of a model with their parts.
+fn networks(model: &Model) -> impl Iterator<Item = (usize, &Network)> {
+    model.parts.iter().enumerate().filter_map(|(p, part)| match part {
+        Part::Discrete { network, .. } => Some((p, network)),
+        Part::Continuum(_) => None,
+    })
+}
+
+/// `Σ ½ k_n δ²` over the broken pairs that are closer than they were, by δ along the line between them; `u` are the unknowns of the
+/// network.
+fn closed(network: &Network, u: &[f64]) -> f64 {
+    let (dim, each) = (network.space.dim(), network.space.dofs_per_particle());
+    let bonds = &network.bonds;
     let mut energy = 0.0;
-    for (p, part) in model.parts.iter().enumerate() {
-        let Part::Discrete { network, .. } = part else { continue };
-        let (first, each) = (numbering.offset(p), part.dofs_per_point());
-        let moved = |point: usize, c: usize| u[first + point * each + c];
-        let bonds = &network.bonds;
-        for b in (0..bonds.len()).filter(|&b| bonds.weight[b] == 0.0) {
-            let [i, j] = bonds.ends[b];
-            let n = (network.particles.position[j] - network.particles.position[i]).normalize();
-            let by: f64 = (0..dim).map(|c| n[c] * (moved(i, c) - moved(j, c))).sum();
-            energy += 0.5 * bonds.stiffness[b].kn * by.max(0.0).powi(2);
-        }
+    for b in (0..bonds.len()).filter(|&b| bonds.weight[b] == 0.0) {
+        let [i, j] = bonds.ends[b];
+        let n = (network.particles.position[j] - network.particles.position[i]).normalize();
+        let by: f64 = (0..dim).map(|c| n[c] * (u[i * each + c] - u[j * each + c])).sum();
+        energy += 0.5 * bonds.stiffness[b].kn * by.max(0.0).powi(2);
     }
     energy
 }

@@ -100,7 +100,7 @@ fn of_run(read: Read, snapshot: &Snapshot) -> f64 {
         Read::Gap => snapshot.gap,
         Read::LoadFactor => snapshot.factor,
         Read::LargestBondStress => bond_stress::largest(snapshot.model, &snapshot.state.u),
-        Read::Losses => snapshot.losses as f64,
+        Read::Losses => snapshot.losses() as f64,
         Read::FractureWork => -snapshot.energies.fracture,
         Read::ContactWork => -snapshot.energies.contact,
         Read::Particles => particles(snapshot.model) as f64,

@@ -18,6 +18,7 @@ use crate::scene::dynamics::Dynamics;
 use crate::scene::probe::{Probe, Read, Where};
 use crate::scene::quantity::{Norm, Quantity, Zone};
 use seam_solver::contact::ContactEnergy;
+use seam_solver::cracking::adaptive::Adaptive;
 use seam_solver::dynamics::breaking::Loss;
 use seam_solver::model::Numbering;
 use seam_solver::simulation::{Energies, Outcome};
@@ -210,12 +211,14 @@ fn go(
         let state = snapshot.state;
         let (strain, now) = (snapshot.energies.strain, [state.time, snapshot.factor]);
         guard.watch(snapshot.model, &state.u, strain, now).map_err(|e| file.solver(e))?;
+        if let Some(breaking) = snapshot.breaking {
+            guard.watch_pairs(breaking.networks(), &Numbering::new(snapshot.model), &state.u, 1.0);
+        }
         recorder.watch(snapshot)?;
         checkpoints.keep(file, (&recorder.histories, &guard), snapshot)
     })?;
     let Outcome { model, state, energies, switches, losses, contact, notes, work, switch_seconds, .. } =
         outcome;
-    // Snapshots show all bonds; the end knows which have failed.
     let now = [state.time, time::factor(file, dynamics)?.at(state.time)];
     guard.watch(&model, &state.u, energies.strain, now).map_err(|e| file.solver(e))?;
     let share_of_time = switch_seconds / start.elapsed().as_secs_f64();
@@ -269,8 +272,16 @@ fn load_at_breaking(
 fn crack(file: &SceneFile, cracking: &Cracking, mut built: Built) -> Result<Solved> {
     let mut recorder = crack::Recorder::new(&built.model);
     let mut held = Supports::new(&built);
+    let mut guard = Guard::new(file, &built)?;
+    let mut watch = |path: &Adaptive| {
+        recorder.watch(path);
+        let (cracking, factor) = (path.cracking(), crack::factor(path));
+        let strain =
+            cracking.events().last().map_or(0.0, |e| 0.5 * e.force.max(e.force_after) * e.displacement);
+        guard.watch_crack(cracking.model(), cracking.numbering(), cracking.displacements(), [factor, strain]);
+    };
     let (model, u, reactions, (outcome, grown)) =
-        model::cracking::run(file, cracking, &mut built, &mut |path| recorder.watch(path), |path| {
+        model::cracking::run(file, cracking, &mut built, &mut watch, |path| {
             let factor = crack::factor(&path);
             let reactions = path.cracking().reactions().iter().map(|r| factor * r).collect();
             (path.cracking().model().clone(), crack::state(&path), reactions, path.outcome())
@@ -296,7 +307,6 @@ fn crack(file: &SceneFile, cracking: &Cracking, mut built: Built) -> Result<Solv
         by_probe.extend(cracked.read(probe, limit).map(|reading| (name.clone(), reading)));
     }
     let readings = Readings { by_probe, first_switch: None };
-    let mut guard = Guard::new(file, &built)?;
     let factor = cracked.outcome.events.last().map_or(1.0, |e| e.factor);
     guard.watch(&built.model, &solution.u, solution.energy, [0.0, factor]).map_err(|e| file.solver(e))?;
     Ok(Solved { built, solution, readings, course: None, cracked: Some(cracked), guard, seconds: 0.0 })

@@ -2,7 +2,7 @@
 
 use crate::contact::ContactEnergy;
 use crate::dynamics::State;
-use crate::dynamics::breaking::Loss;
+use crate::dynamics::breaking::{Breaking, Loss};
 use crate::model::Model;
 use crate::transfer::report::SwitchReport;
 use crate::work::Work;
@@ -73,12 +73,17 @@ pub struct Snapshot<'a> {
     pub reactions: &'a [f64],
     /// Switches so far.
     pub switches: usize,
-    /// Bonds that have lost stiffness so far, each time counted.
-    pub losses: usize,
+    /// Bonds that fail and what is left of them; `None` where none may.
+    pub breaking: Option<&'a Breaking>,
     pub(super) freeze: &'a dyn Fn() -> Vec<u8>,
 }
 
 impl Snapshot<'_> {
+    /// Bonds that have lost stiffness so far, each time counted.
+    pub fn losses(&self) -> usize {
+        self.breaking.map_or(0, |b| b.losses().len())
+    }
+
     /// What [`super::resume`] needs to go on from here, bit by bit.
     pub fn checkpoint(&self) -> Vec<u8> {
         (self.freeze)()

@@ -144,7 +144,7 @@ impl<'a> Course<'a> {
                     gap: look.gap,
                     reactions: &look.reactions,
                     switches: course.so_far.switches,
-                    losses: stepper.breaking().map_or(0, |b| b.losses().len()),
+                    breaking: stepper.breaking(),
                     freeze: &|| Frozen::of(course, (model, record), beginning.since, (k, stepper)).seal(),
                 };
                 timed(Stage::Output, || watch(&snapshot))?;
