@@ -376,6 +376,38 @@ mod tests {
     }
 
     #[test]
+    fn sums_scalings_and_parts_are_those_of_entries() {
+        let of = |n: usize, entries: &[(usize, usize, f64)]| {
+            let mut t = Triplets::default();
+            entries.iter().for_each(|&(r, c, v)| t.push(r, c, v));
+            SymmetricMatrix::from_triplets(n, &t)
+        };
+        let a = of(3, &[(0, 0, 1.0), (2, 0, 2.0), (1, 1, 3.0), (2, 2, 4.0)]);
+        let b = of(4, &[(1, 0, 5.0), (2, 0, 6.0), (2, 1, 7.0), (3, 1, 8.0), (3, 3, 9.0)]);
+        let entries = |m: &SymmetricMatrix| m.entries().collect::<Vec<_>>();
+        let sum = [
+            (0, 0, 1.0),
+            (1, 0, 5.0),
+            (2, 0, 8.0),
+            (1, 1, 3.0),
+            (2, 1, 7.0),
+            (3, 1, 8.0),
+            (2, 2, 4.0),
+            (3, 3, 9.0),
+        ];
+        assert_eq!(entries(&a.plus(&b)), sum);
+        assert_eq!(
+            entries(&a.scaled(&[1.0, 2.0, 3.0])),
+            [(0, 0, 1.0), (2, 0, 6.0), (1, 1, 12.0), (2, 2, 36.0)]
+        );
+        // Without the first unknown.
+        assert_eq!(
+            entries(&a.plus(&b).principal(&[usize::MAX, 0, 1, 2], 3)),
+            entries(&of(3, &[(0, 0, 3.0), (1, 0, 7.0), (2, 0, 8.0), (1, 1, 4.0), (2, 2, 9.0),]))
+        );
+    }
+
+    #[test]
     fn entries_of_one_place_add_up() {
         let mut t = Triplets::default();
         t.push_block(&[1, 0], &[1.0, 2.0, 2.0, 3.0]);
