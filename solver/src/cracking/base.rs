@@ -3,6 +3,7 @@
 use super::capacitance::Capacitance;
 use super::modes::{Mode, product};
 use super::system::Weakened;
+use crate::coupling::{Row, assemble};
 use crate::dem;
 use crate::error::Result;
 use crate::fem;
@@ -42,8 +43,21 @@ struct Updated {
     z: Vec<f64>,
 }
 
-/// Stiffness of all elements, on all unknowns: it never changes.
-pub(super) fn elements(model: &Model, numbering: &Numbering, work: &mut Work) -> Result<Triplets> {
+/// What bonds that fail do not change.
+pub(super) struct Lasting {
+    /// Stiffness of all elements, on all unknowns.
+    elements: Triplets,
+    /// Rows of all ties.
+    pub rows: Vec<Row>,
+}
+
+impl Lasting {
+    pub fn new(model: &Model, numbering: &Numbering, work: &mut Work) -> Result<Self> {
+        Ok(Lasting { elements: elements(model, numbering, work)?, rows: assemble::rows(model, numbering)? })
+    }
+}
+
+fn elements(model: &Model, numbering: &Numbering, work: &mut Work) -> Result<Triplets> {
     let mut triplets = Triplets::default();
     for (p, part) in model.parts.iter().enumerate() {
         if let Part::Continuum(body) = part {
@@ -93,7 +107,7 @@ impl Base {
     pub fn new(
         model: &Model,
         numbering: &Numbering,
-        elements: &Triplets,
+        lasting: &Lasting,
         load: &[f64],
         prescribed: &[Option<f64>],
         work: &mut Work,
@@ -105,8 +119,8 @@ impl Base {
         };
         let bonds: usize = model.parts.iter().map(bonds).sum();
         let dofs = 2 * model.space.dofs_per_particle();
-        let mut triplets = Triplets::with_capacity(elements.len() + bonds * dofs * (dofs + 1) / 2);
-        triplets.append(elements);
+        let mut triplets = Triplets::with_capacity(lasting.elements.len() + bonds * dofs * (dofs + 1) / 2);
+        triplets.append(&lasting.elements);
         for (p, part) in model.parts.iter().enumerate() {
             if let Part::Discrete { name, network } = part {
                 let offset = numbering.offset(p);
@@ -121,7 +135,7 @@ impl Base {
         let free: Vec<usize> = (0..n).filter(|&i| prescribed[i].is_none()).collect();
         let mut place = vec![usize::MAX; n];
         free.iter().enumerate().for_each(|(k, &i)| place[i] = k);
-        let tied = statics::constraints(model, numbering, prescribed, &place)?;
+        let tied = statics::independent_rows(&lasting.rows, prescribed, &place)?;
         let (reduced, force) = statics::eliminate(&stiffness, load, prescribed, &free, &place);
         let (group, positions) = statics::points_of(model, numbering, &free);
         let row_positions: Vec<Vec3> = tied.rows.iter().map(|r| r.position).collect();

@@ -7,14 +7,12 @@
 //! so `u = u₀ + Z (D⁻¹ − VᵀZ)⁻¹ Vᵀu₀` — with Vᵀ on all unknowns, prescribed ones included, also where bonds at supports are lost.
 //! The true residual is checked and refined on; where that fails, and after [`Updating::most`] modes, a new base is factorised.
 
-use super::base::{Base, elements};
+use super::base::{Base, Lasting};
 use super::modes::Mode;
 use super::pieces::Pieces;
-use crate::coupling::assemble;
 use crate::error::{Error, Result};
 use crate::model::{Model, Numbering, Part};
 use crate::solve::mechanism;
-use crate::solve::sparse::Triplets;
 use crate::work::Work;
 
 /// How the equilibrium is followed.
@@ -72,7 +70,7 @@ pub(super) struct System {
     /// Events that were followed by an update alone.
     pub updates: u64,
     pieces: Pieces,
-    elements: Triplets,
+    lasting: Lasting,
     updating: Updating,
     base: Base,
 }
@@ -86,8 +84,8 @@ impl System {
         let n = numbering.len();
         let mut work = Work::default();
         let (prescribed, load) = conditions(model, &numbering);
-        let elements = elements(model, &numbering, &mut work)?;
-        let (base, softest) = Base::new(model, &numbering, &elements, &load, &prescribed, &mut work)?;
+        let lasting = Lasting::new(model, &numbering, &mut work)?;
+        let (base, softest) = Base::new(model, &numbering, &lasting, &load, &prescribed, &mut work)?;
         mechanism::refuse(model, &numbering, &base.free, softest)?;
         let pieces = Pieces::new(model, &numbering, &base.tied.rows);
         let notes = base.tied.notes.clone();
@@ -101,7 +99,7 @@ impl System {
             notes,
             updates: 0,
             pieces,
-            elements,
+            lasting,
             updating,
             base,
         };
@@ -120,11 +118,11 @@ impl System {
         let numbering = Numbering::new(model);
         let mut work = old.work;
         let (mut prescribed, load) = conditions(model, &numbering);
-        let elements = elements(model, &numbering, &mut work)?;
-        let mut pieces = Pieces::resumed(model, &numbering, &assemble::rows(model, &numbering)?);
+        let lasting = Lasting::new(model, &numbering, &mut work)?;
+        let mut pieces = Pieces::resumed(model, &numbering, &lasting.rows);
         let held = match release(model, &numbering, &load, &mut prescribed, &mut pieces) {
             Holding::Held => {
-                settle(model, &numbering, &elements, &load, &mut prescribed, &mut pieces, &mut work)?
+                settle(model, &numbering, &lasting, &load, &mut prescribed, &mut pieces, &mut work)?
             }
             Holding::Separated(what) => Err(what),
         };
@@ -143,7 +141,7 @@ impl System {
             notes,
             updates,
             pieces,
-            elements,
+            lasting,
             updating,
             base,
         })
@@ -213,8 +211,8 @@ impl System {
 
     /// Factorises what is left.
     fn refactorise(&mut self) -> Result<Holding> {
-        let System { model, numbering, elements, load, prescribed, pieces, work, .. } = self;
-        match settle(model, numbering, elements, load, prescribed, pieces, work)? {
+        let System { model, numbering, lasting, load, prescribed, pieces, work, .. } = self;
+        match settle(model, numbering, lasting, load, prescribed, pieces, work)? {
             Err(what) => Ok(Holding::Separated(what)),
             Ok(base) => {
                 self.base = base;
@@ -251,14 +249,14 @@ fn release(
 fn settle(
     model: &Model,
     numbering: &Numbering,
-    elements: &Triplets,
+    lasting: &Lasting,
     load: &[f64],
     prescribed: &mut [Option<f64>],
     pieces: &mut Pieces,
     work: &mut Work,
 ) -> Result<std::result::Result<Base, String>> {
     loop {
-        let (base, softest) = Base::new(model, numbering, elements, load, prescribed, work)?;
+        let (base, softest) = Base::new(model, numbering, lasting, load, prescribed, work)?;
         if softest.1 > mechanism::FREE {
             return Ok(Ok(base));
         }

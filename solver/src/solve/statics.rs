@@ -170,19 +170,18 @@ pub(crate) fn constraints(
     prescribed: &[Option<f64>],
     place: &[usize],
 ) -> Result<Constraints> {
-    timed(Stage::Assembly, || independent_rows(model, numbering, prescribed, place))
+    timed(Stage::Assembly, || independent_rows(&assemble::rows(model, numbering)?, prescribed, place))
 }
 
-fn independent_rows(
-    model: &Model,
-    numbering: &Numbering,
+/// As [`constraints`], from the rows of all ties.
+pub(crate) fn independent_rows(
+    all: &[Row],
     prescribed: &[Option<f64>],
     place: &[usize],
 ) -> Result<Constraints> {
-    let all = assemble::rows(model, numbering)?;
     let mut rhs = Vec::with_capacity(all.len());
     let mut reduced = Vec::with_capacity(all.len());
-    for row in &all {
+    for row in all {
         rhs.push(-row.terms.iter().filter_map(|&(i, b)| Some(b * prescribed[i]?)).sum::<f64>());
         let terms =
             row.terms.iter().filter(|t| prescribed[t.0].is_none()).map(|&(i, b)| (place[i], b)).collect();
