@@ -229,6 +229,11 @@ fn runs_in_turns_are_compared_with_another_program() {
     assert!(code == Some(0) && said.contains("nothing is worse than it was"), "{said}");
     let (code, said) = gate("0.001");
     assert!(code == Some(3) && said.contains("SLOWER than 0.001"), "{said}");
+    // Too few for an interval: refused before anything is built.
+    assert_eq!(
+        seam().args(["gate", "--rounds", "4", "--binary", own]).output().unwrap().status.code(),
+        Some(2)
+    );
     let nowhere = seam().args(["gate", "--against", "no-such-commit"]).output().unwrap();
     assert_eq!(nowhere.status.code(), Some(2));
     assert!(String::from_utf8(nowhere.stderr).unwrap().contains("no-such-commit: no such commit"));

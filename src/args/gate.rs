@@ -2,7 +2,6 @@
 
 use super::{Filter, ReferencesFolder, Tier};
 use clap::Args;
-use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
 /// Option of everything that compares with records.
@@ -51,9 +50,9 @@ pub struct Against {
     /// How much is run
     #[arg(long, value_enum, default_value_t = Tier::Quick)]
     pub tier: Tier,
-    /// Runs of each, in turns
-    #[arg(long, value_name = "N", default_value = "7")]
-    pub rounds: NonZeroUsize,
+    /// Runs of each, in turns; five at least, since fewer have no interval
+    #[arg(long, value_name = "N", default_value_t = 7, value_parser = clap::value_parser!(u32).range(5..))]
+    pub rounds: u32,
     /// Largest ratio of wall times that passes
     #[arg(long, value_name = "RATIO", default_value_t = 1.2)]
     pub slower: f64,

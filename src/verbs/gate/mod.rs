@@ -36,7 +36,7 @@ pub fn gate(words: &Against) -> Result<Exit> {
     print(&format!("Wall time over that of {}: median of {} runs in turns\n", other.name(), words.rounds))?;
     for file in &files {
         let id = &file.scene.id;
-        let Some(ratios) = turns.take(id, words.rounds.get())? else {
+        let Some(ratios) = turns.take(id, words.rounds as usize)? else {
             print(&format!("  {id:<30} does not run there\n"))?;
             continue;
         };
