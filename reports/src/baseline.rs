@@ -5,8 +5,9 @@ use crate::counted::{changes, counters};
 use crate::exit::Exit;
 use crate::format::{percent, share, with_unit};
 use crate::loosened::{loosened, width};
-use crate::margins::MarginResult;
+use crate::margins::{MarginResult, moved};
 use crate::results::{CaseJudgement, ClaimResult, QuantityResult, Results};
+use std::cmp::Ordering;
 use std::collections::BTreeMap;
 
 /// What a change is.
@@ -169,11 +170,10 @@ fn margin(was: &MarginResult, now: &MarginResult) -> Option<(Kind, String, Strin
     let (Some(before), Some(after)) = (was.value, now.value) else {
         return was.value.map(|_| (Kind::Lost, say_margin(was), say_margin(now)));
     };
-    let width = was.tolerance.max(now.tolerance) * before.abs();
-    let kind = match after - before {
-        change if change < -width => Kind::Closer,
-        change if change > width => Kind::Better,
-        _ => return None,
+    let kind = match moved(after, before, was.tolerance.max(now.tolerance)) {
+        Ordering::Less => Kind::Closer,
+        Ordering::Greater => Kind::Better,
+        Ordering::Equal => return None,
     };
     Some((kind, say_margin(was), say_margin(now)))
 }

@@ -2,7 +2,7 @@
 
 use crate::ablation::AblationJudgement;
 use crate::counted::Counter;
-use crate::format::{self, percent, share, with_unit};
+use crate::format::{self, percent, share, significant, with_unit};
 use crate::growth::TimedGrowth;
 use crate::loosened::Loosened;
 use crate::margins::MarginResult;
@@ -143,7 +143,11 @@ fn of_margin(case: &CaseJudgement, m: &MarginResult) -> Option<Failure> {
     let (bound, meaning) = match m.recorded {
         _ if m.value.is_none() => ("a finite margin".to_owned(), "nothing was compared".to_owned()),
         Some(recorded) if !m.too_small() => (
-            format!("{} ± {}, recorded", with_unit(recorded, &m.unit), percent(m.tolerance)),
+            format!(
+                "{}, recorded, within a factor of {}",
+                with_unit(recorded, &m.unit),
+                significant(1.0 + m.tolerance, 4)
+            ),
             "the margin has changed: find out why before it is accepted".to_owned(),
         ),
         _ => (

@@ -7,6 +7,7 @@ use crate::verdict::Verdict;
 use schemars::JsonSchema;
 use seam_cases::margin::Margin;
 use serde::{Deserialize, Serialize};
+use std::cmp::Ordering;
 
 /// A judged margin.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -44,7 +45,9 @@ pub(crate) fn judge(m: &Margin, recorded: Option<f64>) -> MarginResult {
     let value = Some(m.value).filter(|v| v.is_finite());
     let verdict = match value {
         None => Verdict::Undetermined,
-        Some(v) if v < m.needed || recorded.is_some_and(|r| changed(v, r, m.tolerance)) => Verdict::Fail,
+        Some(v) if v < m.needed || recorded.is_some_and(|r| moved(v, r, m.tolerance).is_ne()) => {
+            Verdict::Fail
+        }
         Some(_) => Verdict::Pass,
     };
     MarginResult {
@@ -64,9 +67,15 @@ pub(crate) fn judge(m: &Margin, recorded: Option<f64>) -> MarginResult {
     }
 }
 
-/// Whole numbers are compared exactly, others within the width of the search on either side.
-fn changed(value: f64, recorded: f64, tolerance: f64) -> bool {
-    (value - recorded).abs() > tolerance * recorded.abs()
+/// Where a margin lies beside an earlier one. A search ends between `value` and `value · (1 + tolerance)`, so the two are equal within that
+/// factor on either side: whole numbers, whose tolerance is zero, exactly, and searches by doublings within two.
+pub(crate) fn moved(value: f64, before: f64, tolerance: f64) -> Ordering {
+    let factor = 1.0 + tolerance;
+    match () {
+        () if value > before * factor => Ordering::Greater,
+        () if value * factor < before => Ordering::Less,
+        () => Ordering::Equal,
+    }
 }
 
 impl MarginResult {
@@ -97,6 +106,18 @@ mod tests {
             assert_eq!(judge(&margin(value), recorded).verdict, verdict, "{value} {recorded:?}");
         }
         assert!(judge(&margin(0.5), None).too_small() && !judge(&margin(1.2), Some(9.0)).too_small());
+    }
+
+    /// A search by doublings: a loss beyond a factor of two is seen as a gain is, though it is less than all of the record.
+    #[test]
+    fn a_wide_search_has_two_sides() {
+        let doubled = |value| Margin { tolerance: 1.0, ..margin(value) };
+        for (value, verdict) in [(8.0, Verdict::Pass), (4.0, Verdict::Pass), (16.0, Verdict::Pass)]
+            .into_iter()
+            .chain([(2.0, Verdict::Fail), (3.9, Verdict::Fail), (16.1, Verdict::Fail)])
+        {
+            assert_eq!(judge(&doubled(value), Some(8.0)).verdict, verdict, "{value}");
+        }
     }
 
     #[test]

@@ -202,8 +202,8 @@ fn a_slender_beam_is_solved_or_refused() {
     }
 }
 
-/// A chain of springs 1 … 1e-6 in two halves that a row holds together. One pass through the factor is enough: eliminated before
-/// its unknowns, the row's pivot would be −ε alone, and three digits would be left of it.
+/// A chain of springs 1 … 1e-6 in two halves that a row holds together. One pass through the factor is enough: were the row
+/// eliminated before its unknowns, its pivot would be −ε alone, and `b bᵀ/ε` would drown the springs.
 #[test]
 fn one_pass_is_exact_with_rows_too() {
     let n = 40;

@@ -33,7 +33,9 @@ const good = readFileSync(process.argv[2], "utf8");
 const check = join(dirname(fileURLToPath(import.meta.url)), "check.mjs");
 const folder = mkdtempSync(join(tmpdir(), "seam-defects-"));
 let missed = 0;
-for (const [name, defect, line] of DEFECTS.filter(([name]) => name.includes(process.argv[3] ?? ""))) {
+const chosen = DEFECTS.filter(([name]) => name.includes(process.argv[3] ?? ""));
+if (!chosen.length) throw new Error(`no defect has '${process.argv[3]}' in its name`);
+for (const [name, defect, line] of chosen) {
   const file = join(folder, "report.html");
   writeFileSync(file, defect(good));
   const { status, stdout } = spawnSync(process.execPath, [check, file], { encoding: "utf8" });

@@ -98,7 +98,7 @@ impl Guard {
         Ok(())
     }
 
-    /// Looks at a state of a path that cracks, at load factor one and at `factor`, with its strain energy at `factor`, in J.
+    /// Looks at a state of a path that cracks: `factor` times the motion `u`, with its strain energy in J.
     pub fn watch_crack(
         &mut self,
         model: &Model,

@@ -85,14 +85,6 @@ impl Base {
         self.updated.len()
     }
 
-    /// Lets go of the factor and of the update, which are most of its memory: it can no longer be updated.
-    pub fn forget(&mut self) {
-        self.kkt = None;
-        self.updated = Vec::new();
-        self.place_of.clear();
-        self.capacitance = Capacitance::default();
-    }
-
     /// Whether a bond (part, index) is in the update.
     pub fn has(&self, bond: (usize, usize)) -> bool {
         self.place_of.contains_key(&bond)

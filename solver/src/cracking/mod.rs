@@ -181,7 +181,7 @@ impl Cracking {
     fn exchange(&mut self, model: &Model, laws: Vec<(usize, Failure)>, factor: f64) -> Result<()> {
         options::check_fit(model, &laws)?;
         let (q, before) = (factor * self.displacement, self.stiffness);
-        self.system = System::resumed(model, self.options.updating, &mut self.system)?;
+        self.system = System::resumed(model, self.options.updating, &self.system)?;
         (self.laws, self.next) = (laws, None);
         (self.displacement, self.stiffness) = self.response();
         self.exchanges.push(Exchange {

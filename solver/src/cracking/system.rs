@@ -108,12 +108,11 @@ impl System {
     }
 
     /// The system of a model that takes the place of the one of `old`: with bonds that are broken already, whose pieces are taken off, and
-    /// with the work and notes of both. The old one lets go of its factor first.
+    /// with the work and notes of both.
     ///
     /// # Errors
     /// As [`System::new`]; what carries load is not held.
-    pub fn resumed(model: &Model, updating: Updating, old: &mut System) -> Result<Self> {
-        old.base.forget();
+    pub fn resumed(model: &Model, updating: Updating, old: &System) -> Result<Self> {
         crate::check::model(model)?;
         let numbering = Numbering::new(model);
         let mut work = old.work;
