@@ -273,6 +273,23 @@ fn other_steppings_come_to_the_same_deflection() {
     assert!(off.abs() < 0.1, "{off}");
 }
 
+/// At two rates the ties open under waves that the coarse steps cannot follow, and the result says so.
+#[test]
+fn ties_that_drift_open_are_not_trusted() {
+    let inertia = |changes: &[&str]| {
+        let result = run(changes);
+        result.effects.into_iter().find(|e| e.name == "inertia").unwrap()
+    };
+    let two_rates = ["dynamics.stepping=two-rates", "dynamics.fine_share=0.8"];
+    let mapped = inertia(&two_rates);
+    let indicator = mapped.indicator.as_ref().unwrap();
+    assert!(mapped.on && mapped.called_for && indicator.value > 2e-3, "{mapped:?}");
+    assert!(mapped.why.contains("re-equilibrate what is switched"), "{}", mapped.why);
+    let at_rest = "switches.middle.fields=displacement+rotation+velocity+re-equilibrate";
+    let relaxed = inertia(&[&two_rates[..], &[at_rest, "dynamics.step_s=period_s/400"]].concat());
+    assert!(relaxed.on && !relaxed.called_for && relaxed.indicator.is_none(), "{relaxed:?}");
+}
+
 /// What damps takes energy out, and the balance knows how much.
 #[test]
 fn hht_and_both_kinds_of_damping_are_reached_from_scenes() {

@@ -25,6 +25,10 @@ pub struct Seen {
     pub strain: f64,
     /// Energy that broken pairs which have closed would hold if they were bonds, in J: `Σ ½ k_n δ²`.
     pub closed: f64,
+    /// Gap of the ties, in m.
+    pub gap: f64,
+    /// Displacement along an axis, in m.
+    pub displacement: f64,
 }
 
 /// Watches a run.
@@ -96,6 +100,18 @@ impl Guard {
             self.seen.nearest_switch = Some(self.seen.nearest_switch.map_or(near, |before| before.max(near)));
         }
         Ok(())
+    }
+
+    /// Looks at how far the ties of a motion are open, in m.
+    pub fn watch_ties(&mut self, model: &Model, u: &[f64], gap: f64) {
+        let (dim, numbering) = (model.space.dim(), Numbering::new(model));
+        for (p, part) in model.parts.iter().enumerate() {
+            let each = part.dofs_per_point();
+            let own = &u[numbering.offset(p)..][..each * part.positions().len()];
+            let moved = own.chunks_exact(each).flat_map(|point| &point[..dim]);
+            self.seen.displacement = moved.fold(self.seen.displacement, |m, v| nan_max(m, v.abs()));
+        }
+        self.seen.gap = nan_max(self.seen.gap, gap);
     }
 
     /// Looks at a state of a path that cracks: `factor` times the motion `u`, with its strain energy in J.

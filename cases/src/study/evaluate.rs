@@ -211,6 +211,7 @@ fn go(
         let state = snapshot.state;
         let (strain, now) = (snapshot.energies.strain, [state.time, snapshot.factor]);
         guard.watch(snapshot.model, &state.u, strain, now).map_err(|e| file.solver(e))?;
+        guard.watch_ties(snapshot.model, &state.u, snapshot.gap);
         if let Some(breaking) = snapshot.breaking {
             guard.watch_pairs(breaking.networks(), &Numbering::new(snapshot.model), &state.u, 1.0);
         }

@@ -168,14 +168,13 @@ pub(super) fn look(
     (kinetic, done): (f64, WorkDone),
 ) -> Look {
     let state = system.state(motion);
-    let gaps = system.rows.iter().zip(&system.gaps).map(|(row, g)| row_product(row, &motion.u) - g);
     Look {
         reactions: system.reactions(&state.u, multipliers, factor),
         state,
         kinetic,
         strain: system.strain(&motion.u),
         done,
-        gap: gaps.map(|g| g * g).sum::<f64>().sqrt(),
+        gap: system.gap(&motion.u),
     }
 }
 

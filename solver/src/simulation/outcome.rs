@@ -67,7 +67,7 @@ pub struct Snapshot<'a> {
     pub factor: f64,
     /// Energies.
     pub energies: Energies,
-    /// Gap `‖C u‖` of the ties, in m.
+    /// Largest gap of the ties, in m.
     pub gap: f64,
     /// Forces of supports and ties on each unknown, in N and N m.
     pub reactions: &'a [f64],

@@ -4,6 +4,7 @@ use super::super::evaluate::{Course, Solved};
 use super::{off, on, watched};
 use crate::file::SceneFile;
 use crate::model;
+use crate::observe::guard::Seen;
 use crate::result::{EffectUse, Indicator};
 use crate::scene::dynamics::Stepping;
 use seam_solver::dynamics::load::LoadFactor;
@@ -14,6 +15,14 @@ use std::f64::consts::PI;
 
 /// Sway about the equilibria beyond this share of the largest deflection shows: slower loads, or inertia.
 const LARGE_SWAY: f64 = 0.05;
+
+/// Two rates tie velocities, and displacements drift apart by what the coarse steps cannot follow. The deflection of a beam misses
+/// several times the gap: it turns what lies beyond the tie.
+const LARGE_GAP: f64 = 1e-3;
+
+/// What to do then.
+const MEND: &str = "the coarse steps cannot follow the waves, the result is not trusted; re-equilibrate what is switched, or take \
+                    shorter steps";
 
 /// Inertia, on or off.
 pub fn effect(file: &SceneFile, solved: &Solved) -> EffectUse {
@@ -28,7 +37,16 @@ pub fn effect(file: &SceneFile, solved: &Solved) -> EffectUse {
             }
             None => "the scene asks for it".to_owned(),
         };
-        return on(name, why, solved.solution.work.steps);
+        let simulated = on(name, why, solved.solution.work.steps);
+        return match drift(dynamics.stepping, &solved.guard.seen).filter(Indicator::is_past) {
+            Some(indicator) => EffectUse {
+                called_for: true,
+                why: format!("{}, but {} is {:.1e}: {MEND}", simulated.why, indicator.about, indicator.value),
+                indicator: Some(indicator),
+                ..simulated
+            },
+            None => simulated,
+        };
     }
     let end = dynamics.end_s.value(&file.values, "").ok();
     let sway = end.zip(model::time::factor(file, dynamics).ok()).zip(period(file));
@@ -43,6 +61,13 @@ pub fn effect(file: &SceneFile, solved: &Solved) -> EffectUse {
             off(name, "the scene asks for equilibria; there is no first period to compare the loads with")
         }
     }
+}
+
+/// How far the ties of a run at two rates have opened; `None` where displacements themselves are tied, and at rest.
+fn drift(stepping: Stepping, seen: &Seen) -> Option<Indicator> {
+    let about = "the largest gap of the ties over the largest displacement".to_owned();
+    let opens = stepping == Stepping::TwoRates && seen.displacement != 0.0;
+    opens.then(|| Indicator { about, value: seen.gap / seen.displacement, limit: LARGE_GAP })
 }
 
 /// Largest kinetic over largest strain energy; `None` if nothing was ever strained.
