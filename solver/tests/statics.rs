@@ -212,7 +212,7 @@ fn one_pass_is_exact_with_rows_too() {
         let stiffness = 10f64.powf(-6.0 * i as f64 / n as f64);
         springs.push(i, i, 1e-3 * stiffness);
         if i > 0 && i != n / 2 {
-            springs.push_block(&[i - 1, i], &[stiffness, -stiffness, -stiffness, stiffness]);
+            springs.push_block(0, &[i - 1, i], &[stiffness, -stiffness, -stiffness, stiffness]);
         }
     }
     let stiffness = SymmetricMatrix::from_triplets(n, &springs);
@@ -238,7 +238,7 @@ fn one_pass_is_exact_with_rows_too() {
 #[test]
 fn what_is_not_finite_is_no_solution() {
     let mut springs = Triplets::with_capacity(3);
-    springs.push_block(&[0, 1], &[2.0, -1.0, -1.0, 2.0]);
+    springs.push_block(0, &[0, 1], &[2.0, -1.0, -1.0, 2.0]);
     let stiffness = SymmetricMatrix::from_triplets(2, &springs);
     let positions = [Vec3::zeros(), Vec3::new(1.0, 0.0, 0.0)];
     let layout = Layout { space: Space::Plane, group: &[0, 1], positions: &positions, row_positions: &[] };

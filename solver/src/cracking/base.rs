@@ -6,7 +6,7 @@ use super::system::Weakened;
 use crate::coupling::{Row, assemble};
 use crate::dem;
 use crate::error::Result;
-use crate::fem;
+use crate::fem::{self, continuum::Continuum};
 use crate::model::{Model, Numbering, Part};
 use crate::solve::kkt::{Kkt, Layout};
 use crate::solve::mechanism;
@@ -25,7 +25,7 @@ pub(super) struct Base {
     pub free: Vec<usize>,
     pub tied: Constraints,
     /// `u₀` on all unknowns, then the multipliers.
-    pub solution: Vec<f64>,
+    solution: Vec<f64>,
     /// Root of the diagonal of `K₀`, inverted: scales residuals.
     scale: Vec<f64>,
     updated: Vec<Updated>,
@@ -58,18 +58,28 @@ impl Lasting {
 }
 
 fn elements(model: &Model, numbering: &Numbering, work: &mut Work) -> Result<Triplets> {
-    let mut triplets = Triplets::default();
+    let entries = |part: &Part| match part {
+        Part::Continuum(Continuum { mesh, .. }) => {
+            mesh.cell_count() * lower_triangle(mesh.nodes_per_cell() * mesh.space.dim())
+        }
+        Part::Discrete { .. } => 0,
+    };
+    let mut triplets = Triplets::with_capacity(model.parts.iter().map(entries).sum());
     for (p, part) in model.parts.iter().enumerate() {
         if let Part::Continuum(body) = part {
             let offset = numbering.offset(p);
             fem::assembly::for_each_stiffness(body, |dofs, k| {
                 work.element_updates += 1;
-                let shifted: Vec<usize> = dofs.iter().map(|d| d + offset).collect();
-                triplets.push_block(&shifted, k);
+                triplets.push_block(offset, dofs, k);
             })?;
         }
     }
     Ok(triplets)
+}
+
+/// Entries of an n × n matrix on and below its diagonal.
+fn lower_triangle(n: usize) -> usize {
+    n * (n + 1) / 2
 }
 
 /// A residual (relative, scaled) above this is refined on.
@@ -110,16 +120,15 @@ impl Base {
             _ => 0,
         };
         let bonds: usize = model.parts.iter().map(bonds).sum();
-        let dofs = 2 * model.space.dofs_per_particle();
-        let mut triplets = Triplets::with_capacity(lasting.elements.len() + bonds * dofs * (dofs + 1) / 2);
+        let of_bonds = bonds * lower_triangle(2 * model.space.dofs_per_particle());
+        let mut triplets = Triplets::with_capacity(lasting.elements.len() + of_bonds);
         triplets.append(&lasting.elements);
         for (p, part) in model.parts.iter().enumerate() {
             if let Part::Discrete { name, network } = part {
                 let offset = numbering.offset(p);
                 dem::bond::for_each_stiffness(network, name, |dofs, k| {
                     work.bond_updates += 1;
-                    let shifted: Vec<usize> = dofs.iter().map(|d| d + offset).collect();
-                    triplets.push_block(&shifted, k);
+                    triplets.push_block(offset, dofs, k);
                 })?;
             }
         }
@@ -175,7 +184,7 @@ impl Base {
     }
 
     /// `K₀⁻¹` on several forces (all unknowns) with row values, by one pass through the factor; prescribed unknowns rest. What this leaves
-    /// of the residual is refined on in [`Base::updated_solution`].
+    /// of the residual is refined on in [`Base::updated_state`].
     fn solve(&self, sides: &[[&[f64]; 2]], work: &mut Work) -> Vec<Vec<f64>> {
         let held = vec![0.0; self.stiffness.len()];
         let Some(kkt) = &self.kkt else { return vec![held; sides.len()] };
@@ -225,14 +234,22 @@ impl Base {
         }
     }
 
-    /// The updated equilibrium; `None` where refinement cannot make it accurate.
-    pub fn updated_solution(&self, load: &[f64], work: &mut Work) -> Option<Vec<f64>> {
+    /// The equilibrium it was factorised for, and `K u` there, both on all unknowns.
+    pub fn state(&self) -> (Vec<f64>, Vec<f64>) {
+        let u = self.solution[..self.stiffness.len()].to_vec();
+        let internal = self.internal(&u);
+        (u, internal)
+    }
+
+    /// The updated equilibrium, as [`Base::state`]; `None` where refinement cannot make it accurate.
+    pub fn updated_state(&self, load: &[f64], work: &mut Work) -> Option<(Vec<f64>, Vec<f64>)> {
         let n = self.stiffness.len();
         let mut x = self.solution.clone();
         self.update(&mut x);
-        let mut last = f64::INFINITY;
+        let (mut last, mut internal) = (f64::INFINITY, Vec::new());
         for step in 0..=MOST_REFINEMENTS {
-            let (force, gaps, size) = self.residual(&x, load);
+            internal = self.internal(&x[..n]);
+            let (force, gaps, size) = self.residual(&x, &internal, load);
             if size <= REFINED || step == MOST_REFINEMENTS || size.is_nan() || size > 0.5 * last {
                 last = size;
                 break;
@@ -244,11 +261,11 @@ impl Base {
             }
         }
         x.truncate(n);
-        (last <= REFUSED).then_some(x)
+        (last <= REFUSED).then_some((x, internal))
     }
 
     /// `K u = K₀u − V D Vᵀu` on all unknowns.
-    pub fn internal(&self, u: &[f64]) -> Vec<f64> {
+    fn internal(&self, u: &[f64]) -> Vec<f64> {
         let mut internal = vec![0.0; self.stiffness.len()];
         self.stiffness.multiply_add(u, &mut internal);
         for (updated, loss) in self.updated.iter().zip(self.capacitance.losses()) {
@@ -258,11 +275,11 @@ impl Base {
         internal
     }
 
-    /// What is missing from equilibrium and from the rows, and its size relative to the forces and motions in it.
-    fn residual(&self, x: &[f64], load: &[f64]) -> (Vec<f64>, Vec<f64>, f64) {
+    /// What is missing from equilibrium and from the rows at x, where `K u` is `internal`, and its size relative to the forces and
+    /// motions in it.
+    fn residual(&self, x: &[f64], internal: &[f64], load: &[f64]) -> (Vec<f64>, Vec<f64>, f64) {
         let (u, multipliers) = x.split_at(self.stiffness.len());
-        let internal = self.internal(u);
-        let mut force: Vec<f64> = load.iter().zip(&internal).map(|(f, k)| f - k).collect();
+        let mut force: Vec<f64> = load.iter().zip(internal).map(|(f, k)| f - k).collect();
         let mut gaps = vec![0.0; multipliers.len()];
         let (mut gap, mut motion) = (0.0f64, 0.0f64);
         for ((row, multiplier), out) in self.tied.rows.iter().zip(multipliers).zip(&mut gaps) {

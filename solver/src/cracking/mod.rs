@@ -105,7 +105,7 @@ impl Cracking {
     fn response(&self) -> (f64, f64) {
         let u = &self.system.u;
         let q = if self.driven { 1.0 } else { dot(&self.system.load, u) };
-        (q, dot(u, &self.system.internal()) / (q * q))
+        (q, dot(u, &self.system.internal) / (q * q))
     }
 
     /// Displacements and rotations of all unknowns at load factor one (m, rad); zero for what was torn off.
@@ -150,7 +150,7 @@ impl Cracking {
 
     /// Forces that supports and ties exert on all unknowns at load factor one, in N and N m.
     pub fn reactions(&self) -> Vec<f64> {
-        self.system.internal().iter().zip(&self.system.load).map(|(k, f)| k - f).collect()
+        self.system.internal.iter().zip(&self.system.load).map(|(k, f)| k - f).collect()
     }
 
     /// Displacement q at load factor one.
@@ -181,7 +181,7 @@ impl Cracking {
     fn exchange(&mut self, model: &Model, laws: Vec<(usize, Failure)>, factor: f64) -> Result<()> {
         options::check_fit(model, &laws)?;
         let (q, before) = (factor * self.displacement, self.stiffness);
-        self.system = System::resumed(model, self.options.updating, &self.system)?;
+        self.system = System::resumed(model, self.options.updating, &mut self.system)?;
         (self.laws, self.next) = (laws, None);
         (self.displacement, self.stiffness) = self.response();
         self.exchanges.push(Exchange {

@@ -63,6 +63,8 @@ pub(super) struct System {
     pub numbering: Numbering,
     /// All unknowns at load factor one; zero for points that were torn off.
     pub u: Vec<f64>,
+    /// `K u` on all unknowns, with what is left of the bonds.
+    pub internal: Vec<f64>,
     pub load: Vec<f64>,
     pub prescribed: Vec<Option<f64>>,
     pub work: Work,
@@ -72,7 +74,8 @@ pub(super) struct System {
     pieces: Pieces,
     lasting: Lasting,
     updating: Updating,
-    base: Base,
+    /// `None` once it was let go: what fails next calls for a new one.
+    base: Option<Base>,
 }
 
 impl System {
@@ -81,7 +84,6 @@ impl System {
     pub fn new(model: &Model, updating: Updating) -> Result<Self> {
         crate::check::model(model)?;
         let numbering = Numbering::new(model);
-        let n = numbering.len();
         let mut work = Work::default();
         let (prescribed, load) = conditions(model, &numbering);
         let lasting = Lasting::new(model, &numbering, &mut work)?;
@@ -89,10 +91,12 @@ impl System {
         mechanism::refuse(model, &numbering, &base.free, softest)?;
         let pieces = Pieces::new(model, &numbering, &base.tied.rows);
         let notes = base.tied.notes.clone();
-        let mut system = System {
+        let (u, internal) = base.state();
+        Ok(System {
             model: model.clone(),
             numbering,
-            u: Vec::new(),
+            u,
+            internal,
             load,
             prescribed,
             work,
@@ -101,18 +105,17 @@ impl System {
             pieces,
             lasting,
             updating,
-            base,
-        };
-        system.u = system.base.solution[..n].to_vec();
-        Ok(system)
+            base: Some(base),
+        })
     }
 
     /// The system of a model that takes the place of the one of `old`: with bonds that are broken already, whose pieces are taken off, and
-    /// with the work and notes of both.
+    /// with the work and notes of both. The old one lets its factor go, to make room; it is sound without.
     ///
     /// # Errors
     /// As [`System::new`]; what carries load is not held.
-    pub fn resumed(model: &Model, updating: Updating, old: &System) -> Result<Self> {
+    pub fn resumed(model: &Model, updating: Updating, old: &mut System) -> Result<Self> {
+        old.base = None;
         crate::check::model(model)?;
         let numbering = Numbering::new(model);
         let mut work = old.work;
@@ -128,12 +131,13 @@ impl System {
         let base = held.map_err(|message| Error::Load { what: "cracking".to_owned(), message })?;
         let mut notes = old.notes.clone();
         notes.extend(base.tied.notes.iter().filter(|note| !old.notes.contains(note)).cloned());
-        let u = base.solution[..numbering.len()].to_vec();
+        let (u, internal) = base.state();
         let (model, updates) = (model.clone(), old.updates);
         Ok(System {
             model,
             numbering,
             u,
+            internal,
             load,
             prescribed,
             work,
@@ -142,13 +146,8 @@ impl System {
             pieces,
             lasting,
             updating,
-            base,
+            base: Some(base),
         })
-    }
-
-    /// `K u` on all unknowns, with what is left of the bonds.
-    pub fn internal(&self) -> Vec<f64> {
-        self.base.internal(&self.u)
     }
 
     /// Points that were torn off, as (part, point), in the order they were.
@@ -185,37 +184,39 @@ impl System {
 
     /// Follows by an update; `false` where a new base is called for.
     fn try_update(&mut self, bonds: &[Weakened]) -> bool {
+        let Some(base) = &mut self.base else { return false };
         // Further teeth of bonds that are in the update already cost nothing new.
-        let new: usize = bonds.iter().filter(|b| !self.base.has(b.bond())).map(|b| b.modes.len()).sum();
-        if self.base.updated_modes() + new > self.updating.most {
+        let new: usize = bonds.iter().filter(|b| !base.has(b.bond())).map(|b| b.modes.len()).sum();
+        if base.updated_modes() + new > self.updating.most {
             return false;
         }
         for weakened in bonds {
-            if self.base.has(weakened.bond()) {
-                self.base.lose(weakened);
+            if base.has(weakened.bond()) {
+                base.lose(weakened);
             } else {
-                self.base.add(weakened, &mut self.work);
+                base.add(weakened, &mut self.work);
             }
         }
-        if !self.base.factorise_update() {
+        if !base.factorise_update() {
             return false;
         }
-        let solution = self.base.updated_solution(&self.load, &mut self.work);
-        let found = solution.is_some();
-        if let Some(solution) = solution {
-            self.u = solution;
+        let updated = base.updated_state(&self.load, &mut self.work);
+        let found = updated.is_some();
+        if let Some(state) = updated {
+            (self.u, self.internal) = state;
         }
         found
     }
 
     /// Factorises what is left.
     fn refactorise(&mut self) -> Result<Holding> {
-        let System { model, numbering, lasting, load, prescribed, pieces, work, .. } = self;
+        let System { model, numbering, lasting, load, prescribed, pieces, work, base, .. } = self;
+        *base = None;
         match settle(model, numbering, lasting, load, prescribed, pieces, work)? {
             Err(what) => Ok(Holding::Separated(what)),
-            Ok(base) => {
-                self.base = base;
-                self.u = self.base.solution[..self.numbering.len()].to_vec();
+            Ok(settled) => {
+                (self.u, self.internal) = settled.state();
+                self.base = Some(settled);
                 Ok(Holding::Held)
             }
         }
@@ -278,4 +279,77 @@ fn conditions(model: &Model, numbering: &Numbering) -> (Vec<Option<f64>>, Vec<f6
     let mut load = vec![0.0; numbering.len()];
     model.loads.iter().for_each(|l| load[numbering.unknown(l.part, l.point, l.component)] += l.value);
     (prescribed, load)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cracking::modes::modes;
+    use crate::dem::arrangement::Matter;
+    use crate::dem::block::Block;
+    use crate::dem::bond::BondMaterial;
+    use crate::dem::bonding::{BondRecipe, bond_network};
+    use crate::dem::lattice::{LatticeKind, lattice};
+    use crate::dem::section::Section;
+    use crate::dem::skin::Skin;
+    use crate::model::PointValue;
+    use crate::space::{Space, Vec3};
+
+    /// A strip that hangs from its left end.
+    fn strip() -> Model {
+        let block = Block::at_origin(Space::Plane, Vec3::new(8.0, 3.0, 0.0)).unwrap();
+        let l = lattice(LatticeKind::Square, block, 3, Matter::default()).unwrap();
+        let recipe = BondRecipe {
+            material: BondMaterial { young_pa: 1.0, poisson: 0.3 },
+            section: Section::Uniform { ratio: 0.6 },
+            skin: Skin::Weighted,
+        };
+        let network = bond_network(&l.arrangement, &l.pairs, &recipe).unwrap();
+        let value = |point, component, value| PointValue { part: 0, point, component, value };
+        let x = &network.particles.position;
+        let left = (0..x.len()).filter(|&p| x[p].x < 1e-9);
+        let supports = left.flat_map(|p| (0..3).map(move |c| value(p, c, 0.0))).collect();
+        let tip = (0..x.len()).max_by(|&a, &b| (x[a].x + x[a].y).total_cmp(&(x[b].x + x[b].y))).unwrap();
+        let loads = vec![value(tip, 1, -1.0)];
+        let parts = vec![Part::Discrete { name: "strip".to_owned(), network }];
+        Model { space: Space::Plane, parts, ties: Vec::new(), supports, loads }
+    }
+
+    /// A bond breaks.
+    fn weaken(system: &mut System, bond: usize) {
+        let Part::Discrete { network, .. } = &system.model.parts[0] else { panic!("no bonds") };
+        let modes = modes(network, bond, 1.0);
+        let broken = Weakened { part: 0, bond, before: 1.0, after: 0.0, modes };
+        assert_eq!(system.weaken(&[broken]).unwrap(), Holding::Held);
+    }
+
+    /// What let its factor go for a model that never came goes on as if it had not.
+    #[test]
+    fn a_system_without_its_factor_is_sound() {
+        let model = strip();
+        let mut kept = System::new(&model, Updating::default()).unwrap();
+        let mut left = System::new(&model, Updating::default()).unwrap();
+        let inner = |system: &System| {
+            let Part::Discrete { network, .. } = &system.model.parts[0] else { panic!("no bonds") };
+            (0..network.bonds.len()).filter(|&b| network.bonds.weight[b] == 1.0).collect::<Vec<_>>()
+        };
+        let bonds = inner(&kept);
+        weaken(&mut kept, bonds[3]);
+        weaken(&mut left, bonds[3]);
+        let mut unsound = model.clone();
+        if let Part::Discrete { network, .. } = &mut unsound.parts[0] {
+            network.bonds.stiffness[0].kn = f64::NAN;
+        }
+        assert!(System::resumed(&unsound, Updating::default(), &mut left).is_err());
+        assert!(left.base.is_none() && left.u == kept.u && left.internal == kept.internal);
+        for &bond in &bonds[7..9] {
+            weaken(&mut kept, bond);
+            weaken(&mut left, bond);
+            let largest = kept.u.iter().fold(0.0f64, |m, v| m.max(v.abs()));
+            let off = kept.u.iter().zip(&left.u).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+            assert!(off <= 1e-11 * largest, "{off:e} of {largest:e}");
+        }
+        // One was factorised once, the other again where it had let go.
+        assert_eq!([kept.work.factorisations, left.work.factorisations], [1, 2]);
+    }
 }

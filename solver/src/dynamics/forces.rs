@@ -167,7 +167,7 @@ impl InternalForces {
 
 fn stiffness(body: &Continuum) -> Result<SymmetricMatrix> {
     let mut triplets = Triplets::default();
-    fem::assembly::for_each_stiffness(body, |dofs, k| triplets.push_block(dofs, k))?;
+    fem::assembly::for_each_stiffness(body, |dofs, k| triplets.push_block(0, dofs, k))?;
     Ok(SymmetricMatrix::from_triplets(body.dof_count(), &triplets))
 }
 

@@ -71,8 +71,8 @@ pub(super) struct Kinematics<E, const D: usize, const N: usize, const V: usize> 
 
 enum Extra<const D: usize, const N: usize> {
     None,
-    /// `J₀` at the centre.
-    Centre(SMatrix<f64, D, D>),
+    /// `J₀⁻¹` and `j₀` at the centre.
+    Centre(SMatrix<f64, D, D>, f64),
     /// `∇N̄_a = ∫∇N_a dV / ∫dV`.
     Mean([SVector<f64, D>; N]),
 }
@@ -90,7 +90,10 @@ impl<E: Element<D, N>, const D: usize, const N: usize, const V: usize> Kinematic
         let mut kinematics = Kinematics { nodes, extra: Extra::None, element: PhantomData };
         kinematics.extra = match formulation {
             Formulation::Plain => Extra::None,
-            Formulation::Incompatible => Extra::Centre(kinematics.jacobian(&SVector::zeros())),
+            Formulation::Incompatible => {
+                let (inverse, det) = invert(kinematics.jacobian(&SVector::zeros()))?;
+                Extra::Centre(inverse, det)
+            }
             Formulation::BBar => Extra::Mean(kinematics.mean_gradients(rule)?),
         };
         Ok(kinematics)
@@ -134,8 +137,7 @@ impl<E: Element<D, N>, const D: usize, const N: usize, const V: usize> Kinematic
         let mut modes = None;
         match &self.extra {
             Extra::None => {}
-            Extra::Centre(centre) => {
-                let (inverse, det) = invert(*centre)?;
+            Extra::Centre(inverse, det) => {
                 modes = Some(std::array::from_fn(|i| {
                     strain_operator(&(inverse.row(i).transpose() * (-2.0 * xi[i] * det / jacobian)))
                 }));

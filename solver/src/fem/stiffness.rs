@@ -87,12 +87,12 @@ impl<'a, const D: usize, const V: usize> ElementModel<'a, D, V> {
         kinematics: &Kinematics<E, D, N, V>,
     ) -> Result<Condensed, Inverted> {
         let thickness = self.continuum.hypothesis.thickness();
-        let mut matrix = Vec::new();
+        let (mut matrix, mut blocks) = (Vec::new(), Vec::with_capacity(N + D));
         let mut size = N * D;
         for (xi, w) in &self.rule {
             let operator = kinematics.at(xi)?;
-            let mut blocks = operator.nodes.to_vec();
-            blocks.extend(operator.modes.iter().flatten());
+            blocks.clear();
+            blocks.extend(operator.nodes.iter().chain(operator.modes.iter().flatten()).copied());
             size = blocks.len() * D;
             matrix.resize(size * size, 0.0);
             let c = self.elasticity * (w * operator.jacobian * thickness);

@@ -61,12 +61,12 @@ impl Triplets {
         }
     }
 
-    /// Adds a square block, row by row, on the given unknowns.
-    pub fn push_block(&mut self, dofs: &[usize], block: &[f64]) {
+    /// Adds a square block, row by row, on the given unknowns of a part whose first unknown is `offset`.
+    pub fn push_block(&mut self, offset: usize, dofs: &[usize], block: &[f64]) {
         let n = dofs.len();
         for (r, &row) in dofs.iter().enumerate() {
             for (c, &col) in dofs.iter().enumerate() {
-                self.push(row, col, block[r * n + c]);
+                self.push(offset + row, offset + col, block[r * n + c]);
             }
         }
     }
@@ -106,8 +106,10 @@ impl SymmetricMatrix {
 
     /// `S A S` with the diagonal `S`.
     pub fn scaled(&self, scale: &[f64]) -> Self {
-        let values = self.entries().map(|(r, c, v)| v * scale[r] * scale[c]).collect();
-        SymmetricMatrix { values, ..self.clone() }
+        let mut values = Vec::with_capacity(self.stored());
+        values.extend(self.entries().map(|(r, c, v)| v * scale[r] * scale[c]));
+        let (column_start, rows) = (self.column_start.clone(), self.rows.clone());
+        SymmetricMatrix { n: self.n, column_start, rows, values }
     }
 
     /// The sum with a matrix that has as many unknowns or more.
@@ -410,8 +412,8 @@ mod tests {
     #[test]
     fn entries_of_one_place_add_up() {
         let mut t = Triplets::default();
-        t.push_block(&[1, 0], &[1.0, 2.0, 2.0, 3.0]);
-        t.push_block(&[0, 1], &[1.0, 2.0, 2.0, 3.0]);
+        t.push_block(0, &[1, 0], &[1.0, 2.0, 2.0, 3.0]);
+        t.push_block(0, &[0, 1], &[1.0, 2.0, 2.0, 3.0]);
         let a = SymmetricMatrix::from_triplets(2, &t);
         let entries: Vec<_> = a.entries().collect();
         assert_eq!(entries, [(0, 0, 4.0), (1, 0, 4.0), (1, 1, 4.0)]);

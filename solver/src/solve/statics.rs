@@ -130,12 +130,9 @@ fn assemble_parts(model: &Model, numbering: &Numbering, work: &mut Work) -> Resu
     for (p, part) in model.parts.iter().enumerate() {
         let offset = numbering.offset(p);
         let mut count = 0;
-        let mut shifted = Vec::new();
         let mut push = |dofs: &[usize], block: &[f64]| {
             count += 1;
-            shifted.clear();
-            shifted.extend(dofs.iter().map(|d| d + offset));
-            triplets.push_block(&shifted, block);
+            triplets.push_block(offset, dofs, block);
         };
         match part {
             Part::Continuum(body) => {
