@@ -18,8 +18,13 @@ use crate::scene::study::CostDeclaration;
 use measure::{Repeats, measure};
 use target::Target;
 
-/// Packings per random setting of a study, in the quick and in the full tier.
-const SEEDS: [u64; 2] = [3, 7];
+/// Packings per random setting: odd, so that one of them is in the middle.
+fn seeds(tier: Tier) -> u64 {
+    match tier {
+        Tier::Quick => 3,
+        Tier::Full => 7,
+    }
+}
 
 /// The cost diagrams that the scene declares for this tier: its own settings at its own levels.
 pub(super) fn all(study: &Study) -> Result<Vec<CostDiagram>> {
@@ -54,11 +59,7 @@ fn one(study: &Study, name: &str, declared: &CostDeclaration) -> Result<CostDiag
 fn point(study: &Study, target: &Target, changes: &[Override], level: String) -> CostPoint {
     let file = study.file.with(changes);
     let found = file.and_then(|file| {
-        // The quick tier takes the packing that the scene names.
-        let packings = match study.tier {
-            Tier::Quick => Vec::new(),
-            Tier::Full => settings::packings(&file.scene, SEEDS[1]),
-        };
+        let packings = settings::packings(&file.scene, seeds(study.tier));
         measure(study, target, &file, &packings, Repeats::IfShort)
     });
     let point =

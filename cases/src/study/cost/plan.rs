@@ -4,9 +4,9 @@ use super::super::evaluate::Tally;
 use super::super::kept::Kept;
 use super::super::reference::Library;
 use super::super::{Onlooker, Study, digest, head, peer, variants};
-use super::SEEDS;
 use super::levels::Resolution;
 use super::measure::{Repeats, measure};
+use super::seeds;
 use super::settings::{Setting, all_elements, generated, packings};
 use super::target::Target;
 use crate::error::{Error, Result};
@@ -199,8 +199,7 @@ impl Diagram<'_> {
                 return Ok(gap(name, error.to_string()));
             }
         };
-        let seeds = SEEDS[usize::from(study.tier == Tier::Full)];
-        let packings = packings(&file.scene, seeds);
+        let packings = packings(&file.scene, seeds(study.tier));
         let key = key(study, &file, &self.id, packings.len());
         let (point, kept) = around.kept.part(&key, || {
             let found = measure(study, target, &file, &packings, Repeats::Below(REPEATED_S));
