@@ -8,7 +8,7 @@ use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use std::fmt::{Debug, Write};
 
-const MAGIC: &[u8] = b"seam checkpoint 2\n";
+const MAGIC: &[u8] = b"seam checkpoint 3\n";
 const HASH: usize = blake3::OUT_LEN;
 
 /// Hash of the debug text of something, which gives each of its numbers exactly.
