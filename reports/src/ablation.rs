@@ -63,16 +63,20 @@ pub fn judge(a: &Ablation) -> AblationJudgement {
         let verdict = a.expected.map(|_| Verdict::Undetermined);
         return AblationJudgement { verdict, why: format!("cannot be switched: {reason}"), ..judged };
     }
-    let (verdict, why) = verdict(&judged);
+    let (verdict, why) = verdict(&judged, a.with.called_for);
     AblationJudgement { verdict, why, ..judged }
 }
 
-fn verdict(a: &AblationJudgement) -> (Option<Verdict>, String) {
+/// `in_vain`: whether the run with the effect is not trusted either.
+fn verdict(a: &AblationJudgement, in_vain: bool) -> (Option<Verdict>, String) {
     let Some(change) = a.largest_change.filter(|c| c.is_finite()) else {
         return (a.expected.map(|_| Verdict::Undetermined), "no quantity could be compared".to_owned());
     };
     let matters = change > a.tolerance;
     let mut faults = Vec::new();
+    if in_vain {
+        faults.push("the run with it is not trusted either".to_owned());
+    }
     if a.counters[1] != 0 {
         faults.push(format!("it still did {} units of work when it was off", a.counters[1]));
     }

@@ -187,7 +187,7 @@ fn of_claim(case: &CaseJudgement, c: &ClaimResult) -> Option<Failure> {
     Some(Failure { measured, bound, meaning, ..failure(case, class, &c.id) })
 }
 
-/// An effect that was left out although the scene calls for it, or that came too late.
+/// An effect that was left out although the scene calls for it, or that was simulated in vain.
 fn of_effect(case: &CaseJudgement, effect: &EffectUse) -> Option<Failure> {
     let indicator = effect.indicator.as_ref().filter(|_| effect.called_for)?;
     if effect.on {
@@ -195,7 +195,7 @@ fn of_effect(case: &CaseJudgement, effect: &EffectUse) -> Option<Failure> {
             measured: format!("{} is {}", indicator.about, format::significant(indicator.value, 3)),
             bound: format!("at most {}", format::significant(indicator.limit, 3)),
             meaning: effect.why.clone(),
-            ..failure(case, NOT_TRUSTED, &effect.name)
+            ..failure(case, NOT_TRUSTED, &effect.place())
         });
     }
     Some(Failure {

@@ -27,7 +27,7 @@ pub struct Seen {
     pub closed: f64,
     /// Gap of the ties, in m.
     pub gap: f64,
-    /// Displacement along an axis, in m.
+    /// Displacement of a point along an axis beside the mean of all points, in m: a body that flies is not deformed by it.
     pub displacement: f64,
 }
 
@@ -102,16 +102,20 @@ impl Guard {
         Ok(())
     }
 
-    /// Looks at how far the ties of a motion are open, in m.
-    pub fn watch_ties(&mut self, model: &Model, u: &[f64], gap: f64) {
+    /// Looks at how far the ties of a motion have opened so far, in m.
+    pub fn watch_ties(&mut self, model: &Model, u: &[f64], widest_gap: f64) {
         let (dim, numbering) = (model.space.dim(), Numbering::new(model));
-        for (p, part) in model.parts.iter().enumerate() {
-            let each = part.dofs_per_point();
-            let own = &u[numbering.offset(p)..][..each * part.positions().len()];
-            let moved = own.chunks_exact(each).flat_map(|point| &point[..dim]);
-            self.seen.displacement = moved.fold(self.seen.displacement, |m, v| nan_max(m, v.abs()));
+        let along = |axis: usize| {
+            let parts = model.parts.iter().enumerate();
+            parts.flat_map(move |(p, part)| (0..part.positions().len()).map(move |point| (p, point, axis)))
+        };
+        for axis in 0..dim {
+            let of = |(p, point, axis)| u[numbering.unknown(p, point, axis)];
+            let (sum, points) = along(axis).fold((0.0, 0.0), |(sum, n), at| (sum + of(at), n + 1.0));
+            let apart = along(axis).map(|at| (of(at) - sum / points).abs());
+            self.seen.displacement = apart.fold(self.seen.displacement, nan_max);
         }
-        self.seen.gap = nan_max(self.seen.gap, gap);
+        self.seen.gap = nan_max(self.seen.gap, widest_gap);
     }
 
     /// Looks at a state of a path that cracks: `factor` times the motion `u`, with its strain energy in J.
@@ -212,6 +216,25 @@ mod tests {
     use super::*;
     use crate::catalogue;
     use crate::model;
+
+    /// What moves as a whole is no measure of a gap.
+    #[test]
+    fn flying_is_not_deforming() {
+        let file = catalogue::case("clamped-beam-rotation", &[]).unwrap();
+        let built = model::build(&file).unwrap();
+        let numbering = Numbering::new(&built.model);
+        let mut u = vec![0.0; numbering.len()];
+        for (p, part) in built.model.parts.iter().enumerate() {
+            (0..part.positions().len()).for_each(|point| u[numbering.unknown(p, point, 0)] = 7.0);
+        }
+        let mut guard = Guard::new(&file, &built).unwrap();
+        guard.watch_ties(&built.model, &u, 1e-3);
+        assert!(guard.seen.displacement < 1e-12 && guard.seen.gap == 1e-3, "{:?}", guard.seen);
+        // One point moves on by itself.
+        u[numbering.unknown(0, 0, 1)] = 2.0;
+        guard.watch_ties(&built.model, &u, 0.0);
+        assert!((1.9..2.0).contains(&guard.seen.displacement) && guard.seen.gap == 1e-3, "{:?}", guard.seen);
+    }
 
     /// A small rigid rotation turns elements and particles by just its angle.
     #[test]

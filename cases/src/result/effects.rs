@@ -15,13 +15,14 @@ pub struct EffectUse {
     pub why: String,
     /// Work done for it alone; exactly zero when off.
     pub counter: u64,
-    /// Whether it was left out although the scene calls for it, or came when it was too late: the result is then not trusted.
+    /// Whether it was left out although the scene calls for it, or simulated in vain (particles that came too late, ties that drifted
+    /// open): the result is then not trusted.
     #[serde(default)]
     pub called_for: bool,
-    /// What tells whether it may be left out, or that it came too late; `null` where nothing could tell.
+    /// What tells whether it may be left out, or that it was simulated in vain; `null` where nothing could tell.
     #[serde(default)]
     pub indicator: Option<Indicator>,
-    /// Variants of the scene that it was left out in; none for the scene itself.
+    /// Variants of the scene that this is about; none for the scene itself.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub variants: Vec<String>,
 }

@@ -82,7 +82,7 @@ pub enum Read {
     ExternalWork,
     /// Run in time: energy that no entry of the balance accounts for, over the largest entry.
     EnergyClosure,
-    /// Run in time: gap of the ties, in m.
+    /// Run in time: largest gap of the ties, in m; rows of mortar ties are means, rows of rotations times a length.
     Gap,
     /// Run in time: factor on the loads.
     LoadFactor,

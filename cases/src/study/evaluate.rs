@@ -211,7 +211,7 @@ fn go(
         let state = snapshot.state;
         let (strain, now) = (snapshot.energies.strain, [state.time, snapshot.factor]);
         guard.watch(snapshot.model, &state.u, strain, now).map_err(|e| file.solver(e))?;
-        guard.watch_ties(snapshot.model, &state.u, snapshot.gap);
+        guard.watch_ties(snapshot.model, &state.u, snapshot.widest_gap);
         if let Some(breaking) = snapshot.breaking {
             guard.watch_pairs(breaking.networks(), &Numbering::new(snapshot.model), &state.u, 1.0);
         }
@@ -269,7 +269,7 @@ fn load_at_breaking(
     Ok(Some(resultant * time::factor(file, dynamics)?.at(middle.time)))
 }
 
-/// Loads until bonds fail, one by one; the state is the one just after the last failure.
+/// Loads until bonds fail, one by one; the state is the last equilibrium there was: just after the last failure, or before it where nothing held any more.
 fn crack(file: &SceneFile, cracking: &Cracking, mut built: Built) -> Result<Solved> {
     let mut recorder = crack::Recorder::new(&built.model);
     let mut held = Supports::new(&built);

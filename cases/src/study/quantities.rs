@@ -16,7 +16,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 /// All quantities of the scene; those of the same variants share one run. Beside them the effects that such a run left out although
-/// it calls for them, where a number of it is judged.
+/// it calls for them or simulated in vain, where a number of it is judged.
 pub fn all(
     study: &Study,
     solved: &Solved,
@@ -43,7 +43,7 @@ pub fn all(
             }
         };
         if quantity.accept.is_some() && guarded.insert((&quantity.variants, &quantity.leaves_out)) {
-            let called_for = |e: &EffectUse| e.called_for && !quantity.leaves_out.contains(&e.name);
+            let called_for = |e: &EffectUse| e.called_for && (e.on || !quantity.leaves_out.contains(&e.name));
             let left_out = effects::used(file, solved).into_iter().filter(called_for);
             missing.extend(left_out.map(|e| EffectUse { variants: quantity.variants.clone(), ..e }));
         }

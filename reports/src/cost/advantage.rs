@@ -26,7 +26,7 @@ pub struct Advantage {
     pub times_less_run_work: f64,
     /// The setting with the least wall time. Not deterministic.
     #[serde(default)]
-    pub fastest: String,
+    pub setting_in_seconds: String,
     /// Wall time of the paper-like setting over that of this one. Not deterministic.
     pub times_less_seconds: f64,
     /// Whether it is at least that. Not deterministic.
@@ -92,7 +92,7 @@ fn at(diagram: &CostDiagram, paper: &CostSetting, error: f64) -> Option<Advantag
         times_less_work,
         work_at_least,
         times_less_run_work,
-        fastest: fastest.name.clone(),
+        setting_in_seconds: fastest.name.clone(),
         times_less_seconds,
         seconds_at_least,
     })
@@ -160,7 +160,9 @@ mod tests {
         assert!((claimed.times_less_work - 500.0 / 15.0).abs() < 1e-9 && !claimed.work_at_least);
         assert!(claimed.claimed && claimed.setting == "improved");
         // 500 against 75 units of a tenth of the time each.
-        assert!(claimed.fastest == "quick" && (claimed.times_less_seconds - 500.0 / 7.5).abs() < 1e-9);
+        assert!(
+            claimed.setting_in_seconds == "quick" && (claimed.times_less_seconds - 500.0 / 7.5).abs() < 1e-9
+        );
         // Half of the work is the run's in both.
         assert!((claimed.times_less_run_work - claimed.times_less_work).abs() < 1e-9);
         // 5 %: the improved setting starts better than that, so the ratio is a lower bound.

@@ -66,7 +66,11 @@ pub(crate) fn advantage(a: &Advantage) -> String {
         }
     };
     let claimed = if a.claimed { ", the claimed accuracy," } else { "" };
-    let fastest = if a.fastest == a.setting { String::new() } else { format!("\"{}\" ", a.fastest) };
+    let fastest = if a.setting_in_seconds == a.setting {
+        String::new()
+    } else {
+        format!("\"{}\" ", a.setting_in_seconds)
+    };
     format!(
         "at {}{claimed} \"{}\" takes {} work ({} without packing and calibration) and {fastest}{} time than the paper-like setting",
         percent(a.error),

@@ -108,7 +108,8 @@ impl Cracking {
         (q, dot(u, &self.system.internal) / (q * q))
     }
 
-    /// Displacements and rotations of all unknowns at load factor one (m, rad); zero for what was torn off.
+    /// Displacements and rotations of all unknowns at load factor one (m, rad) in the last equilibrium there was; zero for what was
+    /// torn off.
     pub fn displacements(&self) -> &[f64] {
         &self.system.u
     }
@@ -148,7 +149,7 @@ impl Cracking {
         self.first_stiffness
     }
 
-    /// Forces that supports and ties exert on all unknowns at load factor one, in N and N m.
+    /// Forces that supports and ties exert on all unknowns at load factor one in the last equilibrium there was, in N and N m.
     pub fn reactions(&self) -> Vec<f64> {
         self.system.internal.iter().zip(&self.system.load).map(|(k, f)| k - f).collect()
     }
@@ -239,7 +240,14 @@ impl Cracking {
         let stiffness = self.stiffness;
         let q = factor * self.displacement;
         let energy = 0.5 * q * q * stiffness;
-        let holding = self.system.weaken(&failing)?;
+        let holding = match self.system.weaken(&failing) {
+            Ok(holding) => holding,
+            Err(error) => {
+                // What has failed is not in the state: there is no going on from it.
+                self.end(Stop::Unsolved);
+                return Err(error);
+            }
+        };
         let lost = |u: &[f64], v: &[f64]| {
             let of = |f: &Weakened| {
                 (1.0 - f.after / f.before)

@@ -88,6 +88,8 @@ pub enum Stop {
     },
     /// As many events as were asked for.
     EventLimit,
+    /// The equilibrium after a failure was not found: the error said why.
+    Unsolved,
 }
 
 /// What became of a model.

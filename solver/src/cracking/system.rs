@@ -61,9 +61,9 @@ pub(super) struct System {
     /// The model; weights of bonds are what is left.
     pub model: Model,
     pub numbering: Numbering,
-    /// All unknowns at load factor one; zero for points that were torn off.
+    /// All unknowns at load factor one in the last equilibrium there was; zero for points that were torn off.
     pub u: Vec<f64>,
-    /// `K u` on all unknowns, with what is left of the bonds.
+    /// `K u` on all unknowns, with what was left of the bonds in this equilibrium.
     pub internal: Vec<f64>,
     pub load: Vec<f64>,
     pub prescribed: Vec<Option<f64>>,
@@ -348,6 +348,12 @@ mod tests {
             let largest = kept.u.iter().fold(0.0f64, |m, v| m.max(v.abs()));
             let off = kept.u.iter().zip(&left.u).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
             assert!(off <= 1e-11 * largest, "{off:e} of {largest:e}");
+            // What is kept of K u is that of a model which never had these bonds.
+            let fresh = System::new(&left.model, Updating::default()).unwrap();
+            for system in [&kept, &left] {
+                let off = system.internal.iter().zip(&fresh.internal).map(|(a, b)| (a - b).abs());
+                assert!(off.fold(0.0, f64::max) <= 1e-11, "of a unit load");
+            }
         }
         // One was factorised once, the other again where it had let go.
         assert_eq!([kept.work.factorisations, left.work.factorisations], [1, 2]);

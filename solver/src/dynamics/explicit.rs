@@ -41,7 +41,7 @@ pub struct Observation {
     pub state: State,
     /// The energies.
     pub ledger: Ledger,
-    /// Gap `‖C u‖`, in m.
+    /// Largest gap of the ties, in m.
     pub gap: f64,
     /// Forces of supports and ties on each unknown, in N and N m.
     pub reactions: Vec<f64>,

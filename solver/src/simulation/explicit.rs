@@ -51,7 +51,7 @@ impl Stepper for Central {
     fn look(&mut self) -> Result<Look> {
         let Observation { state, ledger, gap, reactions } = self.0.observe()?;
         let Ledger { kinetic, strain, work, .. } = ledger;
-        Ok(Look { state, kinetic, strain, done: work, gap, reactions })
+        Ok(Look { state, kinetic, strain, done: work, gap, widest_gap: gap, reactions })
     }
 
     fn work(&self) -> Work {

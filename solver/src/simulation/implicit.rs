@@ -168,13 +168,15 @@ pub(super) fn look(
     (kinetic, done): (f64, WorkDone),
 ) -> Look {
     let state = system.state(motion);
+    let gap = system.gap(&motion.u);
     Look {
         reactions: system.reactions(&state.u, multipliers, factor),
         state,
         kinetic,
         strain: system.strain(&motion.u),
         done,
-        gap: system.gap(&motion.u),
+        gap,
+        widest_gap: gap,
     }
 }
 

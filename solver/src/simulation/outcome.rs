@@ -67,8 +67,10 @@ pub struct Snapshot<'a> {
     pub factor: f64,
     /// Energies.
     pub energies: Energies,
-    /// Largest gap of the ties, in m.
+    /// Largest gap of the ties now, in m: rows of mortar ties are means, rows of rotations times a length.
     pub gap: f64,
+    /// Largest gap of the ties so far, between outputs too, in m.
+    pub widest_gap: f64,
     /// Forces of supports and ties on each unknown, in N and N m.
     pub reactions: &'a [f64],
     /// Switches so far.

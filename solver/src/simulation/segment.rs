@@ -44,8 +44,10 @@ pub(super) struct Look {
     pub strain: f64,
     /// Work since the stepper began.
     pub done: WorkDone,
-    /// `‖C u‖`, in m.
+    /// Largest gap of the ties now, in m.
     pub gap: f64,
+    /// Largest gap of the ties since the stepper began, in m.
+    pub widest_gap: f64,
     /// Forces of supports and ties, in N and N m.
     pub reactions: Vec<f64>,
 }
@@ -72,6 +74,8 @@ pub(super) struct SoFar {
     pub switches: usize,
     /// Largest closure of the snapshots.
     pub worst_closure: f64,
+    /// Largest gap of the ties, in m.
+    widest_gap: f64,
 }
 
 /// Where a stepper begins: at the state it was made from, or where a checkpoint was.
@@ -134,6 +138,7 @@ impl<'a> Course<'a> {
                     self.so_far.merged += 1;
                 }
                 let energies = self.energies(&look);
+                self.so_far.widest_gap = self.so_far.widest_gap.max(look.widest_gap);
                 self.so_far.worst_closure = self.so_far.worst_closure.max(energies.closure());
                 let (course, stepper) = (&*self, &*stepper);
                 let snapshot = Snapshot {
@@ -142,6 +147,7 @@ impl<'a> Course<'a> {
                     factor: course.plan.loads.at(look.state.time),
                     energies,
                     gap: look.gap,
+                    widest_gap: course.so_far.widest_gap,
                     reactions: &look.reactions,
                     switches: course.so_far.switches,
                     breaking: stepper.breaking(),
@@ -203,6 +209,7 @@ impl<'a> Course<'a> {
 
     fn end(&mut self, look: Look, jobs: Vec<Job>, now: f64) -> Ending {
         let energies = self.energies(&look);
+        self.so_far.widest_gap = self.so_far.widest_gap.max(look.widest_gap);
         self.add_work(&look.done);
         self.so_far.ended = Some(look.kinetic + look.strain);
         Ending { look, energies, jobs, now }

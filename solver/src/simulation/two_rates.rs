@@ -22,6 +22,8 @@ pub(super) struct TwoRates<'a> {
     loads: &'a LoadFactor,
     clock: Clock,
     taken: usize,
+    /// Largest gap of the ties so far, in m.
+    widest_gap: f64,
     work: Work,
 }
 
@@ -51,7 +53,8 @@ impl<'a> TwoRates<'a> {
             fine_parts: (0..model.parts.len()).filter(particles).collect(),
         };
         let multirate = Multirate::new(model, system, &rates, (&motion, lambda), &mut work)?;
-        Ok(TwoRates { system, multirate, loads, clock, taken: 0, work })
+        let widest_gap = multirate.ledger().gap;
+        Ok(TwoRates { system, multirate, loads, clock, taken: 0, widest_gap, work })
     }
 }
 
@@ -60,6 +63,7 @@ impl Stepper for TwoRates<'_> {
         for _ in 0..steps {
             self.multirate.step(|t| self.loads.at(t), &mut self.work)?;
             self.taken += 1;
+            self.widest_gap = self.widest_gap.max(self.multirate.ledger().gap);
         }
         Ok(())
     }
@@ -79,7 +83,8 @@ impl Stepper for TwoRates<'_> {
         };
         let lambda = self.multirate.multipliers();
         let energies = (self.multirate.kinetic(), done);
-        Ok(look(self.system, &motion, lambda, self.loads.at(motion.time), energies))
+        let now = look(self.system, &motion, lambda, self.loads.at(motion.time), energies);
+        Ok(Look { widest_gap: self.widest_gap, ..now })
     }
 
     fn work(&self) -> Work {
@@ -87,12 +92,12 @@ impl Stepper for TwoRates<'_> {
     }
 
     fn freeze(&self) -> Vec<u8> {
-        to_bytes(&(self.taken, self.multirate.freeze(), self.work))
+        to_bytes(&(self.taken, self.multirate.freeze(), self.widest_gap, self.work))
     }
 
     fn thaw(&mut self, bytes: &[u8]) -> Result<()> {
         let sides: Vec<u8>;
-        (self.taken, sides, self.work) = from_bytes(bytes)?;
+        (self.taken, sides, self.widest_gap, self.work) = from_bytes(bytes)?;
         self.multirate.thaw(&sides)
     }
 }

@@ -1,7 +1,7 @@
 //! One point of a diagram: the error of a setting at a level, its counted work and its seconds.
 
-use super::super::Study;
 use super::super::evaluate::{self, Solved, Tally};
+use super::super::{Study, effects};
 use super::elsewhere::elsewhere;
 use super::target::Target;
 use crate::error::Result;
@@ -98,6 +98,9 @@ struct Once {
 
 fn once(study: &Study, target: &Target, file: &SceneFile) -> Result<Once> {
     let (solved, stages) = timed(file, study.tally)?;
+    if let Some(why) = effects::distrust(file, &solved) {
+        return Err(study.error(why));
+    }
     let mut work = solved.solution.work;
     work += solved.built.calibration;
     work += solved.built.packing;

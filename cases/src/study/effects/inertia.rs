@@ -1,4 +1,4 @@
-//! Whether inertia is simulated, and whether it may be left out.
+//! Whether inertia is simulated, and whether it may be left out; whether two rates can follow it.
 
 use super::super::evaluate::{Course, Solved};
 use super::{off, on, watched};
@@ -13,6 +13,8 @@ use seam_solver::dynamics::semidiscrete::Semidiscrete;
 use seam_solver::work::Work;
 use std::f64::consts::PI;
 
+const NAME: &str = "inertia";
+
 /// Sway about the equilibria beyond this share of the largest deflection shows: slower loads, or inertia.
 const LARGE_SWAY: f64 = 0.05;
 
@@ -26,28 +28,12 @@ const MEND: &str = "the coarse steps cannot follow the waves, the result is not 
 
 /// Inertia, on or off.
 pub fn effect(file: &SceneFile, solved: &Solved) -> EffectUse {
-    let name = "inertia";
-    let (Some(dynamics), Some(course)) = (&file.scene.dynamics, &solved.course) else {
-        return off(name, "statics: loads are applied slowly");
-    };
-    if dynamics.stepping != Stepping::QuasiStatic {
-        let why = match kinetic_share(course) {
-            Some(share) => {
-                format!("the scene asks for it; the kinetic energy gets to {share:.1e} of the strain energy")
-            }
-            None => "the scene asks for it".to_owned(),
-        };
-        let simulated = on(name, why, solved.solution.work.steps);
-        return match drift(dynamics.stepping, &solved.guard.seen).filter(Indicator::is_past) {
-            Some(indicator) => EffectUse {
-                called_for: true,
-                why: format!("{}, but {} is {:.1e}: {MEND}", simulated.why, indicator.about, indicator.value),
-                indicator: Some(indicator),
-                ..simulated
-            },
-            None => simulated,
-        };
+    if let Some(simulated) = simulated(file, solved) {
+        return simulated;
     }
+    let Some(dynamics) = file.scene.dynamics.as_ref().filter(|_| solved.course.is_some()) else {
+        return off(NAME, "statics: loads are applied slowly");
+    };
     let end = dynamics.end_s.value(&file.values, "").ok();
     let sway = end.zip(model::time::factor(file, dynamics).ok()).zip(period(file));
     match sway.map(|((end, factor), period)| (sway_of(&factor, end, period), period)) {
@@ -55,17 +41,41 @@ pub fn effect(file: &SceneFile, solved: &Solved) -> EffectUse {
             let about = format!(
                 "the sway that inertia would add to the largest deflection, the first period being {period:.2e} s,"
             );
-            watched(name, Indicator { about, value, limit: LARGE_SWAY })
+            watched(NAME, Indicator { about, value, limit: LARGE_SWAY })
         }
         None => {
-            off(name, "the scene asks for equilibria; there is no first period to compare the loads with")
+            off(NAME, "the scene asks for equilibria; there is no first period to compare the loads with")
         }
     }
 }
 
+/// Inertia where it is on, and whether its steps can be trusted.
+pub fn simulated(file: &SceneFile, solved: &Solved) -> Option<EffectUse> {
+    let (dynamics, course) = (file.scene.dynamics.as_ref()?, solved.course.as_ref()?);
+    if dynamics.stepping == Stepping::QuasiStatic {
+        return None;
+    }
+    let why = match kinetic_share(course) {
+        Some(share) => {
+            format!("the scene asks for it; the kinetic energy gets to {share:.1e} of the strain energy")
+        }
+        None => "the scene asks for it".to_owned(),
+    };
+    let simulated = on(NAME, why, solved.solution.work.steps);
+    Some(match drift(dynamics.stepping, &solved.guard.seen).filter(Indicator::is_past) {
+        Some(indicator) => EffectUse {
+            called_for: true,
+            why: format!("{}, but {} is {:.1e}: {MEND}", simulated.why, indicator.about, indicator.value),
+            indicator: Some(indicator),
+            ..simulated
+        },
+        None => simulated,
+    })
+}
+
 /// How far the ties of a run at two rates have opened; `None` where displacements themselves are tied, and at rest.
 fn drift(stepping: Stepping, seen: &Seen) -> Option<Indicator> {
-    let about = "the largest gap of the ties over the largest displacement".to_owned();
+    let about = "the widest gap of the ties over the largest displacement beside the mean".to_owned();
     let opens = stepping == Stepping::TwoRates && seen.displacement != 0.0;
     opens.then(|| Indicator { about, value: seen.gap / seen.displacement, limit: LARGE_GAP })
 }

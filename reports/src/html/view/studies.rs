@@ -143,7 +143,7 @@ pub(super) fn in_seconds(results: &Results) -> Vec<[String; 4]> {
         [
             case.id.clone(),
             accuracy,
-            a.fastest.clone(),
+            a.setting_in_seconds.clone(),
             format!("{least}{}", significant(a.times_less_seconds, 3)),
         ]
     })
