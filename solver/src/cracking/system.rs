@@ -285,6 +285,7 @@ fn conditions(model: &Model, numbering: &Numbering) -> (Vec<Option<f64>>, Vec<f6
 mod tests {
     use super::*;
     use crate::cracking::modes::modes;
+    use crate::cracking::{Cracking, Options, Stop};
     use crate::dem::arrangement::Matter;
     use crate::dem::block::Block;
     use crate::dem::bond::BondMaterial;
@@ -292,6 +293,9 @@ mod tests {
     use crate::dem::lattice::{LatticeKind, lattice};
     use crate::dem::section::Section;
     use crate::dem::skin::Skin;
+    use crate::failure::bond_stress::BondStress;
+    use crate::failure::strength::Strength;
+    use crate::failure::{Failure, FailureLaw, FailureRecipe, Place};
     use crate::model::PointValue;
     use crate::space::{Space, Vec3};
 
@@ -357,5 +361,27 @@ mod tests {
         }
         // One was factorised once, the other again where it had let go.
         assert_eq!([kept.work.factorisations, left.work.factorisations], [1, 2]);
+    }
+
+    /// A solve that fails after a bond has: the path is over, and what it says is of the equilibrium before.
+    #[test]
+    fn a_path_ends_where_a_solve_fails() {
+        let model = strip();
+        let Part::Discrete { network, .. } = &model.parts[0] else { panic!("no bonds") };
+        let tensile = Strength::Stress { strength_pa: 1.0 };
+        let law = FailureLaw::BondStress(BondStress::Normal { tensile });
+        let place = Place { network, body: "strip", breakable: None, area_m2: None };
+        let failure = Failure::new(&FailureRecipe { law, weibull: None }, &place).unwrap();
+        let anew = Options { updating: Updating { most: 0 }, ..Options::default() };
+        let mut path = Cracking::new(&model, vec![(0, failure)], anew).unwrap();
+        assert!(path.advance().unwrap().is_some());
+        let (before, events) = (path.displacements().to_vec(), path.events().len());
+        if let Part::Discrete { network, .. } = &mut path.system.model.parts[0] {
+            network.bonds.stiffness[0].kn = f64::NAN;
+        }
+        assert!(path.advance().is_err());
+        assert_eq!(path.stop(), Some(&Stop::Unsolved));
+        assert!(path.advance().unwrap().is_none());
+        assert!(path.displacements() == before && path.events().len() == events);
     }
 }
