@@ -160,13 +160,16 @@ mod tests {
     }
 
     #[test]
-    fn an_effect_that_is_off_must_cost_nothing() {
+    fn an_effect_costs_nothing_when_it_is_off_and_does_its_work_when_it_is_on() {
         let mut busy = ablation(Expected::MayBeLeftOut, 0.0, false);
         busy.without.counter = 1;
         assert_eq!(judge(&busy).verdict, Some(Verdict::Fail));
         let mut dear = ablation(Expected::MayBeLeftOut, 0.0, false);
         dear.without.work.bond_updates = 101;
         assert_eq!(judge(&dear).verdict, Some(Verdict::Fail));
+        let mut in_vain = ablation(Expected::IsCalledFor, 0.1, true);
+        in_vain.with.called_for = true;
+        assert_eq!(judge(&in_vain).verdict, Some(Verdict::Fail));
         let mut idle = ablation(Expected::IsCalledFor, 0.1, true);
         idle.with.counter = 0;
         assert_eq!(judge(&idle).verdict, Some(Verdict::Fail));

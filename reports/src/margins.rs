@@ -71,10 +71,12 @@ pub(crate) fn judge(m: &Margin, recorded: Option<f64>) -> MarginResult {
 /// factor on either side: whole numbers, whose tolerance is zero, exactly, and searches by doublings within two.
 pub(crate) fn moved(value: f64, before: f64, tolerance: f64) -> Ordering {
     let factor = 1.0 + tolerance;
-    match () {
-        () if value > before * factor => Ordering::Greater,
-        () if value * factor < before => Ordering::Less,
-        () => Ordering::Equal,
+    if value > before * factor {
+        Ordering::Greater
+    } else if value * factor < before {
+        Ordering::Less
+    } else {
+        Ordering::Equal
     }
 }
 

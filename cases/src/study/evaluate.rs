@@ -269,7 +269,8 @@ fn load_at_breaking(
     Ok(Some(resultant * time::factor(file, dynamics)?.at(middle.time)))
 }
 
-/// Loads until bonds fail, one by one; the state is the last equilibrium there was: just after the last failure, or before it where nothing held any more.
+/// Loads until bonds fail, one by one; the state is the last equilibrium there was: just after the last failure, or before it where
+/// nothing held any more.
 fn crack(file: &SceneFile, cracking: &Cracking, mut built: Built) -> Result<Solved> {
     let mut recorder = crack::Recorder::new(&built.model);
     let mut held = Supports::new(&built);

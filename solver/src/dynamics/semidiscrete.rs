@@ -8,6 +8,7 @@ use crate::error::{Error, Result};
 use crate::fem::loads::lumped_mass;
 use crate::model::{Model, Numbering, Part, PointValue};
 use crate::solve::kkt::Layout;
+use crate::solve::norm::norm;
 use crate::solve::sparse::{SymmetricMatrix, Triplets};
 use crate::solve::statics;
 use crate::space::{Space, Vec3};
@@ -175,8 +176,7 @@ impl Semidiscrete {
 
     /// Largest `|B u − g|`, in m.
     pub fn gap(&self, u: &[f64]) -> f64 {
-        let gaps = self.rows.iter().zip(&self.gaps).map(|(row, g)| (row_product(row, u) - g).abs());
-        gaps.fold(0.0, f64::max)
+        norm(self.rows.iter().zip(&self.gaps).map(|(row, g)| row_product(row, u) - g))
     }
 
     /// Forces of supports and ties on each of all unknowns, `K u − f` and `−Bᵀλ`, at displacements `u` of all unknowns; in N

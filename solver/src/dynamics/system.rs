@@ -4,6 +4,7 @@ use super::semidiscrete::{lumped, row_product};
 use crate::coupling::Row;
 use crate::error::Result;
 use crate::model::{Model, Numbering, PointValue};
+use crate::solve::norm::norm;
 use crate::solve::statics;
 
 /// The constant parts of the equations of motion of a model.
@@ -54,6 +55,6 @@ impl System {
 
     /// Largest gap of a row, in m.
     pub fn gap(&self, u: &[f64]) -> f64 {
-        self.rows.iter().map(|row| row_product(&row.terms, u).abs()).fold(0.0, f64::max)
+        norm(self.rows.iter().map(|row| row_product(&row.terms, u)))
     }
 }

@@ -11,6 +11,7 @@ use crate::dynamics::breaking::Breaking;
 use crate::dynamics::ledger::WorkDone;
 use crate::error::{Error, Result};
 use crate::model::Model;
+use crate::solve::norm::norm;
 use crate::stage::{Stage, timed};
 use crate::work::Work;
 use serde::{Deserialize, Serialize};
@@ -138,7 +139,7 @@ impl<'a> Course<'a> {
                     self.so_far.merged += 1;
                 }
                 let energies = self.energies(&look);
-                self.so_far.widest_gap = self.so_far.widest_gap.max(look.widest_gap);
+                self.so_far.widest_gap = norm([self.so_far.widest_gap, look.widest_gap]);
                 self.so_far.worst_closure = self.so_far.worst_closure.max(energies.closure());
                 let (course, stepper) = (&*self, &*stepper);
                 let snapshot = Snapshot {
@@ -209,7 +210,7 @@ impl<'a> Course<'a> {
 
     fn end(&mut self, look: Look, jobs: Vec<Job>, now: f64) -> Ending {
         let energies = self.energies(&look);
-        self.so_far.widest_gap = self.so_far.widest_gap.max(look.widest_gap);
+        self.so_far.widest_gap = norm([self.so_far.widest_gap, look.widest_gap]);
         self.add_work(&look.done);
         self.so_far.ended = Some(look.kinetic + look.strain);
         Ending { look, energies, jobs, now }

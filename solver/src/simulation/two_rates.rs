@@ -13,6 +13,7 @@ use crate::dynamics::newmark::start;
 use crate::dynamics::semidiscrete::{Motion, Semidiscrete};
 use crate::error::Result;
 use crate::model::{Model, Part};
+use crate::solve::norm::norm;
 use crate::work::Work;
 
 /// A run at two rates.
@@ -63,7 +64,7 @@ impl Stepper for TwoRates<'_> {
         for _ in 0..steps {
             self.multirate.step(|t| self.loads.at(t), &mut self.work)?;
             self.taken += 1;
-            self.widest_gap = self.widest_gap.max(self.multirate.ledger().gap);
+            self.widest_gap = norm([self.widest_gap, self.multirate.ledger().gap]);
         }
         Ok(())
     }

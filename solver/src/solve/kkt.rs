@@ -12,6 +12,7 @@
 //! then `−ε − b·(K + γBᵀB)⁻¹b` and of order one; eliminated before them, it would be −ε alone and `b bᵀ/ε` would drown
 //! the stiffness. δ lets a mechanism through to where it is named.
 
+use super::norm::norm;
 use super::order::{nested_dissection, rows_after_unknowns};
 use super::sparse::{Factor, SymmetricMatrix, Triplets, minimum_degree};
 use crate::error::{Error, Result};
@@ -145,7 +146,7 @@ impl Kkt {
         let mut best = (f64::INFINITY, x.clone());
         for _ in 0..MOST_REFINEMENTS {
             let (mut r, sizes) = self.residual(&x, &f, &g, beside);
-            let now = norm(&sizes);
+            let now = norm(sizes);
             if !now.is_finite() {
                 return Err(Error::Solve {
                     message: "the solution is not finite; look for a mechanism".to_owned(),
@@ -183,7 +184,7 @@ impl Kkt {
     fn is_rounding(&self, x: &[f64], f: &[f64], g: &[f64], beside: [f64; 2], work: &mut Work) -> bool {
         let n = f.len();
         let (mut r, [_, gap]) = self.residual(x, f, g, beside);
-        let rounding = ROUNDING * norm(&self.stiffness.multiply_magnitudes(&x[..n]));
+        let rounding = ROUNDING * norm(self.stiffness.multiply_magnitudes(&x[..n]));
         if norm(&r[..n]) > rounding || gap > LARGEST_RESIDUAL {
             return false;
         }
@@ -286,9 +287,4 @@ fn factorise(matrix: &SymmetricMatrix, rows: &[Vec<(usize, f64)>], layout: &Layo
         }
     };
     Factor::new(matrix, &rows_after_unknowns(&order, rows))
-}
-
-/// Largest magnitude; NaN if there is one.
-fn norm(x: &[f64]) -> f64 {
-    x.iter().fold(0.0, |m, v| if v.abs() > m || v.is_nan() { v.abs() } else { m })
 }

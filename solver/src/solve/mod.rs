@@ -2,6 +2,7 @@
 
 pub mod kkt;
 pub mod mechanism;
+pub(crate) mod norm;
 pub mod order;
 pub mod sparse;
 pub mod statics;

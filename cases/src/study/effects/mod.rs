@@ -1,7 +1,7 @@
 //! Which effects a scene simulates, why the others are left out, and whether they may be.
 //!
-//! One file per effect; each gives its counter where the effect is on, and an indicator with a limit where it is off, or where it is on
-//! and may still be simulated badly.
+//! One file per effect; each gives its counter where the effect is on, and an indicator with a limit where it is off, or where it
+//! is on and may still be simulated badly.
 
 mod ablation;
 mod bond_failure;
@@ -35,8 +35,9 @@ pub fn used(file: &SceneFile, solved: &Solved) -> Vec<EffectUse> {
 
 /// Why a result is not trusted though its effects were simulated: particles came too late, or ties drifted open.
 pub(super) fn distrust(file: &SceneFile, solved: &Solved) -> Option<String> {
-    let simulated = inertia::simulated(file, solved).into_iter().chain([substitution::effect(file, solved)]);
-    simulated.filter(|e| e.on && e.called_for).map(|e| e.why).next()
+    let mut simulated =
+        inertia::simulated(file, solved).into_iter().chain([substitution::effect(file, solved)]);
+    simulated.find(|e| e.on && e.called_for).map(|e| e.why)
 }
 
 /// An effect that was simulated, with the work done for it alone.

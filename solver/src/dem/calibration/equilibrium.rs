@@ -1,6 +1,7 @@
 //! One factorised stiffness and its solutions, checked on the true residual.
 
 use crate::error::{Error, Result};
+use crate::solve::norm::norm;
 use crate::solve::sparse::{Factor, SymmetricMatrix, Triplets, minimum_degree};
 use crate::work::Work;
 
@@ -32,8 +33,8 @@ impl Equilibrium {
         (0..2).for_each(|_| work.solved(self.factor.nonzeros()));
         // Forces that balance to rounding are nothing to be relative to: what the unknowns push does as well.
         let pushed = self.matrix.diagonal().iter().zip(&x).map(|(k, x)| (k * x).abs()).fold(0.0, f64::max);
-        let size = pushed.max(amax(f));
-        let rest = amax(&self.residual(&x, f));
+        let size = pushed.max(norm(f));
+        let rest = norm(self.residual(&x, f));
         if rest <= LARGEST_RESIDUAL * size {
             return Ok(x);
         }
@@ -50,9 +51,4 @@ impl Equilibrium {
         r.iter_mut().zip(f).for_each(|(r, f)| *r = f - *r);
         r
     }
-}
-
-/// Largest magnitude; NaN if there is one.
-fn amax(x: &[f64]) -> f64 {
-    x.iter().fold(0.0, |m, v| if v.abs() > m || v.is_nan() { v.abs() } else { m })
 }
